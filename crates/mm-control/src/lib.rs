@@ -1,0 +1,2 @@
+//! Backstepping fuzzy sliding mode control.
+#![cfg_attr(not(test), no_std)]

@@ -1,0 +1,2 @@
+//! Simulator.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

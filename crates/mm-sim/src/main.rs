@@ -1,0 +1,2 @@
+//! The mmsim command.
+fn main() {}
