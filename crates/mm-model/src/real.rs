@@ -41,22 +41,29 @@ pub trait Real:
     const EPSILON: Self;
 
     /// The number of this type nearest to `value`.
+    #[must_use]
     fn from_f64(value: f64) -> Self;
     /// The same number in double precision; exact.
     fn to_f64(self) -> f64;
     /// Sine and cosine of an angle in radians.
     ///
     /// A NaN or infinite angle gives two NaN.
+    #[must_use]
     fn sin_cos(self) -> (Self, Self);
     /// Angle of the point (`x`, `self`) seen from the origin, in (-pi, pi].
+    #[must_use]
     fn atan2(self, x: Self) -> Self;
     /// Angle in [0, pi] whose cosine this is; NaN outside [-1, 1].
+    #[must_use]
     fn acos(self) -> Self;
     /// Square root, correctly rounded; NaN for a negative number.
+    #[must_use]
     fn sqrt(self) -> Self;
     /// Magnitude.
+    #[must_use]
     fn abs(self) -> Self;
     /// Largest whole number that is not above this one.
+    #[must_use]
     fn floor(self) -> Self;
     /// Whether this is neither infinite nor NaN.
     fn is_finite(self) -> bool;
