@@ -67,6 +67,10 @@ pub trait Real:
     fn floor(self) -> Self;
     /// Whether this is neither infinite nor NaN.
     fn is_finite(self) -> bool;
+    /// Splits a non-negative number into its whole part and the rest in [0, 1), to look up a table.
+    ///
+    /// The whole part saturates at the largest index; a negative number or a NaN gives the index 0.
+    fn split_index(self) -> (usize, Self);
 
     /// -1, 0 or +1 by the sign of the number, with 0 for both zeros, as (4.30) defines it; 0 for NaN.
     #[must_use]
@@ -161,6 +165,16 @@ impl Real for f64 {
     fn is_finite(self) -> bool {
         Self::is_finite(self)
     }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the cast saturates, which is what the index is meant to do"
+    )]
+    #[inline]
+    fn split_index(self) -> (usize, Self) {
+        let index = self as usize;
+        (index, self - index as Self)
+    }
 }
 
 impl Real for f32 {
@@ -208,5 +222,15 @@ impl Real for f32 {
     #[inline]
     fn is_finite(self) -> bool {
         Self::is_finite(self)
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the cast saturates, which is what the index is meant to do"
+    )]
+    #[inline]
+    fn split_index(self) -> (usize, Self) {
+        let index = self as usize;
+        (index, self - index as Self)
     }
 }

@@ -1,0 +1,336 @@
+//! Law: a rule engine returns the exact centroid of its clipped and joined output terms; the two rule bases have
+//! the values and the shape that their documentation states; a surface stays close to its engine.
+//!
+//! Why: the centroid is an integral of a piecewise-linear function, so a plain midpoint quadrature of the same
+//! definition, written here without the code under test, must agree with it.
+//!
+//! Reference: the definition of min-max Mamdani inference; Appendix C of the thesis for the numbers.
+//!
+//! Tolerance: 1e-6 of the output range for the quadrature of 1e6 points, whose own error is about 1e-6 at the
+//! steepest side; a few rounding errors everywhere else.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "the helpers are part of the tests: what fails in them fails the test"
+)]
+
+use mm_control::fuzzy::{
+    FuzzyError, FuzzySystem, MAX_OUTPUT_TERMS, Mamdani, MamdaniTables, MembershipFunction, Rule, SMOOTH,
+    Surface, THESIS,
+};
+use proptest::prelude::*;
+
+/// Uniform numbers in [0, 1) from a 64-bit linear congruential generator.
+struct Lcg(u64);
+
+impl Lcg {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(self.0 >> 32).unwrap()) / 4_294_967_296.0
+    }
+    fn index(&mut self, below: usize) -> usize {
+        (0..below)
+            .rev()
+            .find(|i| self.uniform() < 1.0 / f64::from(u32::try_from(i + 1).unwrap()))
+            .unwrap_or(0)
+    }
+}
+
+/// Degree of `y` in the trapezoid, as the minimum of its two sides.
+fn sampled_degree([a, b, c, d]: [f64; 4], y: f64) -> f64 {
+    let left = if y >= b { 1.0 } else { (y - a) / (b - a) };
+    let right = if y <= c { 1.0 } else { (d - y) / (d - c) };
+    left.min(right).clamp(0.0, 1.0)
+}
+
+/// Centroid by the midpoint rule with `n` points; the middle of the range without area.
+fn sampled_centroid(tables: &MamdaniTables<'_, f64>, x: f64, n: u32) -> f64 {
+    let x = x.clamp(tables.input_range.0, tables.input_range.1);
+    let mut strengths = vec![0.0_f64; tables.output_terms.len()];
+    for rule in tables.rules {
+        let strength = rule.weight * sampled_degree(tables.input_terms[rule.input].breakpoints(), x);
+        strengths[rule.output] = strengths[rule.output].max(strength);
+    }
+    let terms: Vec<_> =
+        tables.output_terms.iter().map(MembershipFunction::breakpoints).zip(strengths).collect();
+    let (lo, hi) = tables.output_range;
+    let step = (hi - lo) / f64::from(n);
+    let (mut area, mut moment) = (0.0, 0.0);
+    for k in 0..n {
+        let y = lo + (f64::from(k) + 0.5) * step;
+        let m = terms.iter().fold(0.0_f64, |m, (term, w)| m.max(sampled_degree(*term, y).min(*w)));
+        area += m;
+        moment += m * y;
+    }
+    if area > 0.0 { moment / area } else { 0.5 * (lo + hi) }
+}
+
+/// A random trapezoid around the range [-1, 1], every third time with a doubled breakpoint.
+fn random_term(random: &mut Lcg) -> MembershipFunction<f64> {
+    let mut p = [0.0; 4].map(|_: f64| 3.0 * random.uniform() - 1.5);
+    p.sort_by(f64::total_cmp);
+    match random.index(6) {
+        0 => p[1] = p[0],
+        1 => p[2] = p[3],
+        2 | 3 => p[2] = p[1],
+        _ => {}
+    }
+    MembershipFunction::try_trapezoid(p[0], p[1], p[2], p[3]).unwrap()
+}
+
+/// `n` inputs from `lo` to `hi`, mirrored bit by bit when the range is.
+fn inputs(half: f64, n: i32) -> impl Iterator<Item = f64> {
+    (-n..=n).map(move |k| half * f64::from(k) / f64::from(n))
+}
+
+#[test]
+fn centroid_agrees_with_quadrature_on_random_systems() {
+    let mut random = Lcg(2026);
+    let mut worst = 0.0_f64;
+    let systems = if cfg!(debug_assertions) { 20 } else { 100 };
+    for system in 0..systems {
+        let input_terms: Vec<_> = (0..3).map(|_| random_term(&mut random)).collect();
+        let count = 1 + random.index(7);
+        let output_terms: Vec<_> = (0..count).map(|_| random_term(&mut random)).collect();
+        let rules: Vec<_> = (0..6)
+            .map(|_| Rule { input: random.index(3), output: random.index(count), weight: random.uniform() })
+            .collect();
+        let tables = MamdaniTables {
+            input_range: (-1.0, 1.0),
+            input_terms: &input_terms,
+            output_range: (-1.25, 1.0),
+            output_terms: &output_terms,
+            rules: &rules,
+        };
+        let engine = Mamdani::try_new(tables).unwrap();
+        let x = 2.0 * random.uniform() - 1.0;
+        let error = (engine.evaluate(x) - sampled_centroid(&tables, x, 1_000_000)).abs();
+        worst = worst.max(error);
+        assert!(error < 1e-6, "system {system} at {x}: off by {error:e}: {tables:?}");
+    }
+}
+
+#[test]
+fn centroid_agrees_with_quadrature_on_the_thesis() {
+    let engine = THESIS.engine().unwrap();
+    for x in inputs(1.5, 12) {
+        let error = (engine.evaluate(x) - sampled_centroid(&THESIS.tables(), x, 1_000_000)).abs();
+        assert!(error < 1e-9, "at {x}: off by {error:e}");
+    }
+}
+
+#[test]
+fn sampling_at_101_points_moves_the_output() {
+    // What a `.fis` tool with its usual 101 samples makes of the triangle (0.6666, 1, 1.334).
+    let samples = (0_i16..=100).map(|k| -1.0 + 0.02 * f64::from(k));
+    let (area, moment) = samples.fold((0.0, 0.0), |(area, moment), y| {
+        let degree = sampled_degree([0.6666, 1.0, 1.0, 1.334], y);
+        (area + degree, moment + degree * y)
+    });
+    assert!((moment / area - 0.8954).abs() < 1e-4, "sampled centroid {}", moment / area);
+}
+
+#[test]
+#[expect(clippy::float_cmp, reason = "zero, the clamped ends and the oddness are exact")]
+fn thesis_values() {
+    let engine = THESIS.engine().unwrap();
+    let near = |x: f64, y: f64, tolerance: f64| {
+        let got = engine.evaluate(x);
+        assert!((got - y).abs() <= tolerance, "f({x}) = {got}, not {y}");
+    };
+    assert_eq!(engine.evaluate(0.0), 0.0, "both terms at zero hold fully");
+    // The triangle (2/3, 1, 1) has its centroid at 8/9; with the printed foot 0.6666 at (0.6666 + 2) / 3.
+    near(-1e-12, (0.6666 + 2.0) / 3.0, 1e-9);
+    near(1e-12, -(0.6666 + 2.0) / 3.0, 1e-9);
+    // At the ends only the triangle (0, 0.3334, 0.6666) is left, with its centroid at a third of 1.
+    near(-1.4, 1.0 / 3.0, 1e-15);
+    near(1.4, -1.0 / 3.0, 1e-15);
+    near(-0.1, 0.876, 5e-4);
+    for x in [1.5, 4.6, 100.0, f64::MAX, f64::INFINITY] {
+        assert_eq!(engine.evaluate(x), engine.evaluate(1.4), "{x} counts as the upper end");
+        assert_eq!(engine.evaluate(-x), engine.evaluate(-1.4), "{} counts as the lower end", -x);
+    }
+    assert_eq!(engine.evaluate(f64::NAN), 0.0, "NaN gives zero");
+    for x in inputs(1.5, 3000) {
+        assert_eq!(engine.evaluate(-x), -engine.evaluate(x), "odd at {x}");
+    }
+}
+
+#[test]
+#[expect(clippy::float_cmp, reason = "zero, saturation and oddness are exact")]
+fn smooth_is_odd_strictly_falling_and_saturates() {
+    let engine = SMOOTH.engine().unwrap();
+    let values: Vec<f64> = inputs(1.0, 5000).map(|x| engine.evaluate(x)).collect();
+    let steepest =
+        values.windows(2).map(|y| 5000.0 * (y[1] - y[0])).fold((-f64::MAX, f64::MAX), |(m, n), slope| {
+            assert!(slope < 0.0, "the slope {slope} is not negative");
+            (m.max(slope), n.min(slope))
+        });
+    assert!((steepest.1 + 2.0).abs() < 0.01, "steepest at zero: {}", steepest.1);
+    assert!((steepest.0 + 2.0 / 3.0).abs() < 0.01, "flattest slope {}", steepest.0);
+    for (y, mirrored) in values.iter().zip(values.iter().rev()) {
+        assert_eq!(*y, -*mirrored, "the map is odd");
+    }
+    assert_eq!(engine.evaluate(0.0), 0.0, "zero at zero");
+    let slope = (engine.evaluate(1e-7) - engine.evaluate(-1e-7)) / 2e-7;
+    assert!((slope + 2.0).abs() < 1e-5, "slope at zero {slope}");
+    let edge = engine.evaluate(1.0);
+    assert!((edge + 1.0).abs() <= 4.0 * f64::EPSILON, "edge value {edge}");
+    for x in [1.0 + 1e-9, 2.0, 1e300, f64::INFINITY] {
+        assert_eq!(engine.evaluate(x), edge, "saturated at {x}");
+    }
+}
+
+#[test]
+fn changed_rules_change_the_output() {
+    let mut rules = THESIS.rules;
+    rules[5].output = 1;
+    let changed = Mamdani::try_new(MamdaniTables { rules: &rules, ..THESIS.tables() }).unwrap();
+    let unchanged = THESIS.engine().unwrap();
+    let distance = (changed.evaluate(0.25) - unchanged.evaluate(0.25)).abs();
+    assert!(distance > 0.2, "PS to NM instead of NB moves the output by {distance}");
+    let mut rules = THESIS.rules;
+    rules[6].weight = 0.5;
+    let changed = Mamdani::try_new(MamdaniTables { rules: &rules, ..THESIS.tables() }).unwrap();
+    let distance = (changed.evaluate(0.8) - unchanged.evaluate(0.8)).abs();
+    assert!(distance > 0.01, "half the weight moves the output by {distance}");
+}
+
+#[test]
+#[expect(clippy::float_cmp, reason = "the middle of the range is exact")]
+fn silence_gives_the_middle() {
+    let terms = [MembershipFunction::from_triangle([0.0, 0.5, 1.0])];
+    let spike = [MembershipFunction::from_triangle([4.0, 4.0, 4.0])];
+    let rules = [Rule { input: 0, output: 0, weight: 1.0 }];
+    let tables = MamdaniTables {
+        input_range: (-1.0, 1.0),
+        input_terms: &terms,
+        output_range: (3.0, 7.0),
+        output_terms: &spike,
+        rules: &rules,
+    };
+    let engine = Mamdani::try_new(tables).unwrap();
+    assert_eq!(engine.evaluate(-0.5), 5.0, "no rule fires");
+    assert_eq!(engine.evaluate(0.5), 5.0, "a singleton has no area");
+}
+
+#[test]
+fn bad_tables_are_refused_by_name() {
+    let good = THESIS.tables();
+    let refused = |tables: MamdaniTables<'_, f64>| Mamdani::try_new(tables).err();
+    let rule = |input, output, weight| [Rule { input, output, weight }];
+    let inverted = [MembershipFunction::from_breakpoints([0.0, 2.0, 1.0, 3.0])];
+    let broken = [MembershipFunction::from_triangle([0.0, f64::NAN, 1.0])];
+    let many = [MembershipFunction::from_triangle([0.0, 0.5, 1.0]); MAX_OUTPUT_TERMS + 1];
+    let cases = [
+        (MamdaniTables { input_range: (1.0, -1.0), ..good }, FuzzyError::Inverted("input_range")),
+        (MamdaniTables { input_range: (0.0, f64::INFINITY), ..good }, FuzzyError::NonFinite("input_range")),
+        (MamdaniTables { output_range: (1.0, 1.0), ..good }, FuzzyError::Inverted("output_range")),
+        (MamdaniTables { input_terms: &[], ..good }, FuzzyError::Empty("input_terms")),
+        (MamdaniTables { output_terms: &[], ..good }, FuzzyError::Empty("output_terms")),
+        (MamdaniTables { output_terms: &many, ..good }, FuzzyError::TooMany("output_terms")),
+        (MamdaniTables { input_terms: &inverted, ..good }, FuzzyError::Inverted("input_terms")),
+        (MamdaniTables { output_terms: &broken, ..good }, FuzzyError::NonFinite("output_terms")),
+        (MamdaniTables { rules: &[], ..good }, FuzzyError::Empty("rules")),
+        (MamdaniTables { rules: &rule(8, 0, 1.0), ..good }, FuzzyError::OutOfRange("rules.input")),
+        (MamdaniTables { rules: &rule(0, 7, 1.0), ..good }, FuzzyError::OutOfRange("rules.output")),
+        (MamdaniTables { rules: &rule(0, 0, 1.5), ..good }, FuzzyError::OutOfRange("rules.weight")),
+        (MamdaniTables { rules: &rule(0, 0, f64::NAN), ..good }, FuzzyError::NonFinite("rules.weight")),
+    ];
+    for (tables, error) in cases {
+        assert_eq!(refused(tables), Some(error), "{tables:?}");
+    }
+    let engine = THESIS.engine().unwrap();
+    let even = Surface::<f64, 64>::from_engine(&engine).err();
+    assert_eq!(even, Some(FuzzyError::OutOfRange("knots")), "an even number of knots");
+}
+
+#[test]
+fn single_precision_agrees_with_double() {
+    let (thesis, smooth) = (THESIS.cast::<f32>(), SMOOTH.cast::<f32>());
+    let pairs = [(thesis.engine().unwrap(), THESIS.tables()), (smooth.engine().unwrap(), SMOOTH.tables())];
+    for (single, tables) in pairs {
+        let double = Mamdani::try_new(tables).unwrap();
+        let mut worst = 0.0_f64;
+        for k in -1500_i16..=1500 {
+            let x = f32::from(k) / 1024.0;
+            let (y, reference) = (single.evaluate(x), double.evaluate(f64::from(x)));
+            worst = worst.max((f64::from(y) - reference).abs());
+        }
+        assert!(worst < 1e-5, "single precision is off by {worst:e}");
+    }
+}
+
+#[test]
+#[expect(clippy::float_cmp, reason = "oddness, zero and the clamped ends are exact")]
+fn surface_stays_close_to_its_engine() {
+    let engine = SMOOTH.engine().unwrap();
+    let surface = Surface::<f64, 65>::from_engine(&engine).unwrap();
+    let mut worst = 0.0_f64;
+    for x in inputs(1.1, 10_007) {
+        let y = surface.evaluate(x);
+        worst = worst.max((y - engine.evaluate(x)).abs());
+        assert_eq!(surface.evaluate(-x), -y, "odd at {x}");
+        assert!(y >= surface.min_output() && y <= surface.max_output(), "{y} within the bounds at {x}");
+    }
+    let bound = surface.slope_bound();
+    assert!((bound - 1.7277).abs() < 1e-4, "slope bound {bound}");
+    assert!(worst < 2e-3, "65 knots are off by {worst:e}");
+    assert_eq!(surface.evaluate(0.0), 0.0, "zero at zero");
+    assert_eq!(surface.evaluate(f64::NAN), 0.0, "NaN gives zero");
+    assert_eq!(surface.evaluate(f64::INFINITY), surface.evaluate(1.0), "clamped above");
+    assert_eq!(surface.max_output(), engine.evaluate(-1.0), "largest output at the end");
+    assert_eq!(surface.min_output(), engine.evaluate(1.0), "smallest output at the end");
+}
+
+/// A system whose table can be worked out by hand.
+struct Parabola;
+
+impl FuzzySystem<f64> for Parabola {
+    fn evaluate(&self, x: f64) -> f64 {
+        x * x
+    }
+    fn input_range(&self) -> (f64, f64) {
+        (1.0, 3.0)
+    }
+}
+
+#[test]
+#[expect(clippy::float_cmp, reason = "small whole numbers")]
+fn surface_by_hand() {
+    let surface = Surface::<f64, 3>::from_engine(&Parabola).unwrap();
+    assert_eq!(surface.knots(), &[1.0, 4.0, 9.0], "squares of 1, 2, 3");
+    assert_eq!((surface.evaluate(1.5), surface.evaluate(2.5)), (2.5, 6.5), "half way");
+    assert_eq!((surface.evaluate(0.0), surface.evaluate(9.0)), (1.0, 9.0), "clamped");
+    assert_eq!(surface.slope_bound(), 5.0, "from 4 to 9");
+    assert_eq!((surface.min_output(), surface.max_output()), (1.0, 9.0), "bounds");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+
+    /// Neither crossing terms nor numbers near the ends of the exponent range may give a NaN.
+    #[test]
+    fn output_stays_finite_and_in_range(
+        breakpoints in prop::array::uniform4(prop::array::uniform4(-2.0_f32..2.0)),
+        x in any::<f32>(),
+        weights in prop::array::uniform4(0.0_f32..=1.0),
+        scale in prop::sample::select(vec![1e-38_f32, 1e-20, 1e-3, 1.0, 1e6, 1e30]),
+    ) {
+        let terms = breakpoints.map(|mut p| {
+            p.sort_by(f32::total_cmp);
+            MembershipFunction::from_breakpoints(p.map(|p| p * scale))
+        });
+        let rules: Vec<_> =
+            weights.into_iter().enumerate().map(|(i, weight)| Rule { input: i, output: 3 - i, weight }).collect();
+        let engine = Mamdani::try_new(MamdaniTables {
+            input_range: (-2.0 * scale, 2.0 * scale),
+            input_terms: &terms,
+            output_range: (-scale, 1.5 * scale),
+            output_terms: &terms,
+            rules: &rules,
+        }).unwrap();
+        let y = engine.evaluate(x);
+        prop_assert!(y >= -scale && y <= 1.5 * scale, "f({x}) = {y}");
+    }
+}
