@@ -1,4 +1,48 @@
-//! Backstepping fuzzy sliding mode control.
+//! Backstepping fuzzy sliding mode control of a mobile manipulator, without allocation, panics or std.
+//!
+//! The tip of an arm on a two-wheel base follows a path in space while base and arm cooperate. An outer loop turns the tip's error
+//! into a velocity that the robot should have (kinematic backstepping), an inner loop makes the robot have it (sliding
+//! mode on the quasi-velocities, with the full dynamics as equivalent control), and a fuzzy system shapes the inner
+//! loop's force.
+//!
+//! ```text
+//! reference --> [ outer loop ] --nu_c, nu_c'--> [ inner loop: equivalent control + law(s) - d_hat ] --> limits --> torque
+//!                     ^                                        ^
+//!                     '---------------- q, nu -----------------'
+//! ```
+//! [`ControlStack::update`] is the one call that simulator, Python, C and firmware make. The laws are in [`laws`]; the fuzzy engine, usable
+//! on its own, in [`fuzzy`].
+//!
+//! Errors are actual minus desired everywhere. Equation numbers are those of the thesis; where a formula differs from the printed
+//! one, its documentation says so.
+//!
+//! # Not modelled
+//! Actuator dynamics, sensor filtering and plausibility checks beyond finiteness: the estimator and supervisor stages pass their input on.
+//!
+//! # Features
+//! `std` adds the standard library to the dependencies, nothing else; the numbers are the same bits with and without it.
 #![cfg_attr(not(test), no_std)]
+#![deny(
+    clippy::indexing_slicing,
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::std_instead_of_core,
+    clippy::alloc_instead_of_core
+)]
 
+mod error;
 pub mod fuzzy;
+pub mod laws;
+mod observer;
+mod outer;
+mod reaching;
+mod stack;
+mod symmetric3;
+
+pub use error::{ControlError, SetupError};
+pub use laws::{Bfsmc, Gains, Law, LawKind};
+pub use observer::{MomentumObserver, ObserverState};
+pub use outer::{OuterLoop, OuterOutput, OuterParams};
+pub use reaching::required_gain;
+pub use stack::{ControlStack, ControlState, Input, Output, Reference, Signals, StackParams, Status};

@@ -1,0 +1,82 @@
+//! Gains of the outer loop.
+
+use mm_model::{ParamError, Real, Velocity, check};
+use nalgebra::Vector3;
+
+/// Gains of the outer loop and of the sliding surface: the same for all laws of a fair comparison.
+///
+/// The tip's error falls roughly as 1/(K c) whatever the inner law, so that laws with different K or c are not compared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OuterParams<T, const N: usize> {
+    /// K: decay rate of the tip's error along x, y, z, 1/s.
+    pub position_gain: Vector3<T>,
+    /// c: gain on the integral of nu - nu_c in the sliding variable, 1/s (4.21).
+    pub sliding_gain: Velocity<T, N>,
+    /// W: weight of each quasi-velocity in the pseudo-inverse; carries the units of m/s against rad/s.
+    pub weights: Velocity<T, N>,
+    /// Pull towards the rest posture: z = gain (q_rest - q), 1/s.
+    pub posture_gain: T,
+    /// Push off a joint limit: z = -+gain d^2, with d rising from 0 at the margin to 1 at the limit, rad/s.
+    pub joint_limit_gain: T,
+    /// Distance from a joint limit at which the push begins, rad.
+    pub joint_limit_margin: T,
+    /// Climb of the manipulability w below its threshold w0: z = gain (1 - w^2/w0^2)^2 grad(w^2)/w0^2, rad^2/s.
+    pub manipulability_gain: T,
+    /// Manipulability w0 below which damping and climb set in.
+    pub manipulability_threshold: T,
+    /// Largest damping: lambda^2 = max^2 (1 - w^2/w0^2)^2 below the threshold, 0 above it.
+    pub damping_max: T,
+    /// Plain minimum norm (3.62): no posture task, no damping, W = I. The arm then drifts until it is stretched.
+    pub minimum_norm: bool,
+}
+
+impl<T: Real, const N: usize> Default for OuterParams<T, N> {
+    /// K = 18/s, c = 20/s, W = I, posture gain 1/s; limits, damping and climb as their fields say.
+    fn default() -> Self {
+        let n = T::from_f64;
+        Self {
+            position_gain: Vector3::repeat(n(18.0)),
+            sliding_gain: Velocity::splat(n(20.0)),
+            weights: Velocity::splat(T::ONE),
+            posture_gain: T::ONE,
+            joint_limit_gain: n(2.0),
+            joint_limit_margin: n(0.1),
+            manipulability_gain: n(0.01),
+            manipulability_threshold: n(0.1),
+            damping_max: n(0.1),
+            minimum_norm: false,
+        }
+    }
+}
+
+impl<T: Real, const N: usize> OuterParams<T, N> {
+    /// Checks every gain; the fields that [`minimum_norm`](Self::minimum_norm) overrides are set to what it means.
+    ///
+    /// # Errors
+    /// Names the first gain that is infinite, NaN or of a sign that it cannot have.
+    pub fn checked(mut self) -> Result<Self, ParamError> {
+        for &gain in self.position_gain.iter() {
+            check::positive(gain, "position_gain_1_s")?;
+        }
+        for gain in self.sliding_gain.channels() {
+            check::non_negative(gain, "sliding_gain_1_s")?;
+        }
+        for weight in self.weights.channels() {
+            check::positive(weight, "weights")?;
+        }
+        check::non_negative(self.posture_gain, "posture_gain_1_s")?;
+        check::non_negative(self.joint_limit_gain, "joint_limit_gain_rad_s")?;
+        check::positive(self.joint_limit_margin, "joint_limit_margin_rad")?;
+        check::non_negative(self.manipulability_gain, "manipulability_gain_rad_s")?;
+        check::positive(self.manipulability_threshold, "manipulability_threshold")?;
+        check::non_negative(self.damping_max, "damping_max")?;
+        if self.minimum_norm {
+            self.weights = Velocity::splat(T::ONE);
+            self.posture_gain = T::ZERO;
+            self.joint_limit_gain = T::ZERO;
+            self.manipulability_gain = T::ZERO;
+            self.damping_max = T::ZERO;
+        }
+        Ok(self)
+    }
+}

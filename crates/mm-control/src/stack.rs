@@ -1,0 +1,306 @@
+//! The control stack: one call from measurement and reference to torques, the same for every user.
+
+use mm_model::{Configuration, Force, Mechanism, Real, Robot, Torque, Velocity, check};
+use nalgebra::Vector3;
+
+use crate::laws::{Gains, Law};
+use crate::observer::{MomentumObserver, ObserverState};
+use crate::outer::{OuterLoop, OuterParams};
+use crate::{ControlError, SetupError};
+
+/// Where the tip should be, and how that moves: position, velocity and acceleration in the world frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reference<T> {
+    /// Position p_d, m.
+    pub position: Vector3<T>,
+    /// Velocity p_d', m/s.
+    pub velocity: Vector3<T>,
+    /// Acceleration p_d'', m/s^2.
+    pub acceleration: Vector3<T>,
+}
+
+/// What enters one update.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Input<T, const N: usize> {
+    /// Configuration of the robot.
+    pub q: Configuration<T, N>,
+    /// Its quasi-velocities.
+    pub nu: Velocity<T, N>,
+    /// The reference at this instant.
+    pub reference: Reference<T>,
+}
+
+/// Numerical outcomes of an update. None of them is an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Status {
+    /// A torque was cut to its limit.
+    pub saturated: bool,
+    /// The manipulability is below its threshold: the pseudo-inverse is damped.
+    pub near_singular: bool,
+    /// A joint is outside its limits.
+    pub beyond_joint_limit: bool,
+}
+
+/// The signals of the law, for logs and monitors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Signals<T, const N: usize> {
+    /// Tip by the controller's kinematics, m.
+    pub tip: Vector3<T>,
+    /// Tip error, actual minus desired, m.
+    pub error: Vector3<T>,
+    /// Virtual control.
+    pub nu_c: Velocity<T, N>,
+    /// Reference velocity of the sliding mode, nu_c - c integral(nu - nu_c).
+    pub nu_r: Velocity<T, N>,
+    /// Its rate.
+    pub dnu_r: Velocity<T, N>,
+    /// Sliding variable s = nu - nu_r.
+    pub sliding: Velocity<T, N>,
+    /// Force of the fuzzy system.
+    pub fuzzy: Force<T, N>,
+    /// Learned disturbance.
+    pub learned: Force<T, N>,
+    /// Torque asked for, before the limits.
+    pub commanded: Torque<T, N>,
+    /// det(J J').
+    pub manipulability_squared: T,
+    /// Square of the damping.
+    pub damping_squared: T,
+}
+
+/// What one update gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Output<T, const N: usize> {
+    /// Torque to apply until the next update, within the limits.
+    pub torque: Torque<T, N>,
+    /// Outcomes.
+    pub status: Status,
+    /// Signals of the law.
+    pub signals: Signals<T, N>,
+}
+
+/// What the stack remembers between updates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ControlState<T, const N: usize> {
+    /// integral(nu - nu_c).
+    integral: Velocity<T, N>,
+    observer: ObserverState<T, N>,
+    /// Whether the last torque was limited.
+    held: bool,
+}
+
+/// Parameters of the stack, not yet checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StackParams<T, const N: usize> {
+    /// Time between two updates, s.
+    pub period: T,
+    /// Outer loop and sliding surface.
+    pub outer: OuterParams<T, N>,
+    /// Inner gains.
+    pub gains: Gains<T, N>,
+}
+
+/// Estimator, supervisor, outer loop, inner loop and limits, in this order.
+///
+/// ```text
+/// q, nu --estimator--> supervisor --> outer loop --nu_c--> inner loop --tau--> limits --> torque
+///            (passes)    (checks)    K, W, z, J#      s, M, C, g, law, d_hat
+/// ```
+/// Inner loop (4.14 to 4.44, errors actual minus desired): with nu_r = nu_c - c integral(nu - nu_c) and s = nu - nu_r,
+///
+/// ```text
+/// f = M nu_r' + C nu_r + g + friction + law(s) - d_hat,   tau = B^-1 f, then the limits
+/// ```
+/// C is the matrix with dM/dt - 2C skew, and it multiplies nu_r, as the proof (4.40) needs it; (4.29) prints nu. All parameters are in
+/// `self`, all memory in [`ControlState`]: retuning is another stack with the same state.
+///
+/// # Examples
+/// ```
+/// use mm_control::{ControlStack, Gains, Input, LawKind, OuterParams, Reference, StackParams};
+/// use mm_model::{Configuration, Robot, RobotParams, Velocity};
+/// use nalgebra::Vector3;
+///
+/// let robot = Robot::try_new(RobotParams::<f64, 3>::thesis())?;
+/// let period = 1e-3;
+/// let gains = Gains::for_robot(&robot, LawKind::Bfsmc, period);
+/// let params = StackParams { period, outer: OuterParams::default(), gains };
+/// let stack = ControlStack::try_new(robot, LawKind::Bfsmc, params)?;
+/// let mut state = stack.initial_state();
+///
+/// // At rest in the rest posture, with the tip where it should be, only gravity is held.
+/// let q = Configuration { joints: robot.params().rest_posture, ..Configuration::zero() };
+/// let position = robot.tip_position(&q);
+/// let reference = Reference { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() };
+/// let output = stack.update(&mut state, &Input { q, nu: Velocity::zero(), reference })?;
+/// assert!((output.torque.joints[1] - 9.81 * (5.0 * 0.5 + 2.0 * 0.5)).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ControlStack<T, const N: usize> {
+    robot: Robot<T, N>,
+    outer: OuterLoop<T, N>,
+    law: Law<T, N>,
+    observer: Option<MomentumObserver<T, N>>,
+    gains: Gains<T, N>,
+    period: T,
+}
+
+impl<T: Real, const N: usize> ControlStack<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    /// A stack of checked parameters around one of the laws.
+    ///
+    /// # Errors
+    /// The first parameter that does not work, by name.
+    pub fn try_new(
+        robot: Robot<T, N>,
+        kind: crate::LawKind,
+        params: StackParams<T, N>,
+    ) -> Result<Self, SetupError> {
+        let law = Law::try_new(kind, &params.gains)?;
+        Self::with_law(robot, law, params)
+    }
+
+    /// A stack around a law of the caller's own making, such as a [`Bfsmc`](crate::Bfsmc) with other rules.
+    ///
+    /// # Errors
+    /// The first parameter that does not work, by name.
+    pub fn with_law(
+        robot: Robot<T, N>,
+        law: Law<T, N>,
+        params: StackParams<T, N>,
+    ) -> Result<Self, SetupError> {
+        let StackParams { period, outer, gains } = params;
+        check::positive(period, "control_period_s")?;
+        gains.check()?;
+        let learns = matches!(law, Law::Bfsmc(_)) && gains.observer_bandwidth > T::ZERO;
+        if learns && gains.observer_bandwidth * period > T::ONE {
+            return Err(mm_model::ParamError::OutOfRange("observer_bandwidth_1_s").into());
+        }
+        let observer = learns.then_some(MomentumObserver {
+            bandwidth: gains.observer_bandwidth,
+            limit: gains.learning_limit,
+            period,
+        });
+        Ok(Self { robot, outer: OuterLoop::new(outer.checked()?), law, observer, gains, period })
+    }
+
+    /// The state before the first update: nothing integrated, nothing learned.
+    #[must_use]
+    pub fn initial_state(&self) -> ControlState<T, N> {
+        ControlState { integral: Velocity::zero(), observer: ObserverState::initial(), held: false }
+    }
+
+    /// The robot that the controller believes in.
+    #[must_use]
+    pub const fn robot(&self) -> &Robot<T, N> {
+        &self.robot
+    }
+
+    /// The outer loop.
+    #[must_use]
+    pub const fn outer(&self) -> &OuterLoop<T, N> {
+        &self.outer
+    }
+
+    /// The switching law.
+    #[must_use]
+    pub const fn law(&self) -> &Law<T, N> {
+        &self.law
+    }
+
+    /// The inner gains.
+    #[must_use]
+    pub const fn gains(&self) -> &Gains<T, N> {
+        &self.gains
+    }
+
+    /// One update: torques to hold for one period.
+    ///
+    /// Cost for N = 3 and `bfsmc`: four sine/cosine pairs, about 600 multiplications and additions, ten divisions, five table lookups;
+    /// no allocation, no loop whose length depends on data.
+    ///
+    /// # Errors
+    /// An input that is not finite, or a torque that would not be; the state is then as before the call, and the caller holds a
+    /// safe command.
+    #[inline]
+    pub fn update(
+        &self,
+        state: &mut ControlState<T, N>,
+        input: &Input<T, N>,
+    ) -> Result<Output<T, N>, ControlError> {
+        supervise(input)?;
+        let Input { q, nu, reference } = input;
+        let robot = &self.robot;
+        let posture = robot.posture(&q.joints);
+        let outer = self.outer.evaluate(robot, (q, &posture), nu, reference);
+
+        let c = self.outer.params().sliding_gain;
+        let lag = nu.minus(outer.nu_c);
+        let nu_r = outer.nu_c.minus(c.zip(state.integral, |c, i| c * i));
+        let dnu_r = outer.dnu_c.minus(c.zip(lag, |c, e| c * e));
+        let sliding = nu.minus(nu_r);
+
+        let inertia = robot.inertia(&posture);
+        let friction = robot.friction(nu);
+        let load = robot.gravity(&inertia).plus(friction);
+        let equivalent =
+            robot.mass_product(&inertia, &dnu_r).plus(robot.coriolis_product(&inertia, nu, &nu_r)).plus(load);
+        let robust = self.law.force(&sliding);
+        let mut observer = state.observer;
+        if let Some(learning) = &self.observer {
+            observer = learning.learn(&state.observer, &robot.mass_product(&inertia, nu), state.held);
+        }
+        let force = equivalent.plus(robust.total).minus(*observer.learned());
+        let commanded = robot.torque_of(&force);
+        let (torque, saturated) = robot.limit_torque(&commanded);
+        if !(commanded.is_finite()) {
+            return Err(ControlError::Overflow);
+        }
+        if let Some(learning) = &self.observer {
+            let own = robot.coriolis_transpose_product(&inertia, nu).minus(load);
+            learning.account(&mut observer, &robot.force_of(&torque).plus(own));
+        }
+        let integral = if saturated { state.integral } else { state.integral.plus(lag.scaled(self.period)) };
+        *state = ControlState { integral, observer, held: saturated };
+        Ok(Output {
+            torque,
+            status: Status {
+                saturated,
+                near_singular: self.outer.is_near_singular(outer.manipulability_squared),
+                beyond_joint_limit: !robot.within_joint_limits(&q.joints),
+            },
+            signals: Signals {
+                tip: outer.tip,
+                error: outer.error,
+                nu_c: outer.nu_c,
+                nu_r,
+                dnu_r,
+                sliding,
+                fuzzy: robust.fuzzy,
+                learned: *observer.learned(),
+                commanded,
+                manipulability_squared: outer.manipulability_squared,
+                damping_squared: outer.damping_squared,
+            },
+        })
+    }
+}
+
+/// Lets only finite inputs through.
+#[inline]
+fn supervise<T: Real, const N: usize>(input: &Input<T, N>) -> Result<(), ControlError> {
+    let finite = |v: &Vector3<T>| v.x.is_finite() && v.y.is_finite() && v.z.is_finite();
+    if !input.q.is_finite() {
+        return Err(ControlError::NonFinite("configuration"));
+    }
+    if !input.nu.is_finite() {
+        return Err(ControlError::NonFinite("velocity"));
+    }
+    let reference = &input.reference;
+    if !(finite(&reference.position) && finite(&reference.velocity) && finite(&reference.acceleration)) {
+        return Err(ControlError::NonFinite("reference"));
+    }
+    Ok(())
+}
