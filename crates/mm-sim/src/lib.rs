@@ -1,2 +1,18 @@
-//! Simulator.
+//! Simulator, scenarios, logs and reports of robust mobile-manipulator control; the `mmsim` command is built on it.
+//!
+//! ```text
+//! scenario file --load--> checked types --build--> Simulation --run--> metrics, digest, log
+//! ```
+//! The controller in the loop is [`mm_control::ControlStack`], the very code that firmware links; the plant is the same model with its own
+//! parameters, integrated by Runge-Kutta.
+
+pub mod digest;
+pub mod disturbance;
+pub mod metrics;
+pub mod plant;
+pub mod random;
+pub mod simulation;
+pub mod trajectory;
+
+/// Version of the stack.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -1,0 +1,121 @@
+//! What pushes the robot besides its actuators.
+
+use mm_model::{Force, Mechanism, Real, Robot, Torque};
+use nalgebra::Vector3;
+
+use crate::plant::Sines;
+use crate::random::noise_at;
+
+/// Where a disturbance acts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Target {
+    /// Torques on the actuators' axes, one factor each; the amplitude is in N m.
+    Torque(Torque<f64, 3>),
+    /// A force at the tip along a unit vector of the world frame; the amplitude is in N.
+    Tip(Vector3<f64>),
+}
+
+/// How a disturbance runs in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// The amplitude, from beginning to end.
+    Constant,
+    /// amplitude sin(frequency t + phase), t the scenario's time.
+    Sine {
+        /// Angular frequency, rad/s.
+        frequency: f64,
+        /// Phase, rad.
+        phase: f64,
+    },
+    /// Uniform in [-amplitude, amplitude], a new value every `hold`; the same for the same seed.
+    Noise {
+        /// Time for which a value is held, s.
+        hold: f64,
+        /// Seed of this disturbance.
+        seed: u64,
+    },
+}
+
+/// One disturbance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disturbance {
+    /// Where it acts.
+    pub target: Target,
+    /// How it runs.
+    pub shape: Shape,
+    /// Its size, N m or N.
+    pub amplitude: f64,
+    /// From this time on, s.
+    pub from: f64,
+    /// Up to, and without, this time, s.
+    pub to: f64,
+}
+
+impl Disturbance {
+    /// Size at time `t`.
+    #[must_use]
+    pub fn size(&self, t: f64) -> f64 {
+        if !(t >= self.from && t < self.to) {
+            return 0.0;
+        }
+        self.amplitude
+            * match self.shape {
+                Shape::Constant => 1.0,
+                Shape::Sine { frequency, phase } => Real::sin_cos(frequency * t + phase).0,
+                Shape::Noise { hold, seed } => noise_at(seed, Real::floor((t - self.from) / hold)),
+            }
+    }
+}
+
+/// All disturbances of a scenario.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Disturbances(Vec<Disturbance>);
+
+impl Disturbances {
+    /// A set of disturbances that act together.
+    #[must_use]
+    pub const fn new(all: Vec<Disturbance>) -> Self {
+        Self(all)
+    }
+
+    /// Whether nothing disturbs.
+    #[must_use]
+    #[inline]
+    pub const fn is_none(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Sum of the torques on the actuators' axes and of the forces at the tip at time `t`.
+    #[must_use]
+    pub fn sizes(&self, t: f64) -> (Torque<f64, 3>, Vector3<f64>) {
+        let mut sum = (Torque::zero(), Vector3::zeros());
+        for disturbance in &self.0 {
+            let size = disturbance.size(t);
+            match disturbance.target {
+                Target::Torque(factors) => sum.0 = sum.0.plus(factors.scaled(size)),
+                Target::Tip(direction) => sum.1 += direction * size,
+            }
+        }
+        sum
+    }
+
+    /// The generalized force at time `t`: B times the torques, J' times the forces at the tip.
+    #[must_use]
+    pub fn force(&self, t: f64, robot: &Robot<f64, 3>, sines: &Sines) -> Force<f64, 3> {
+        if self.is_none() {
+            return Force::zero();
+        }
+        let (torque, at_tip) = self.sizes(t);
+        let mut force = robot.force_of(&torque);
+        if self.0.iter().any(|d| matches!(d.target, Target::Tip(_))) {
+            let jacobian = robot.tip_jacobian(sines.heading, &sines.posture);
+            let along = jacobian.transpose_product(&at_tip);
+            force = force.plus(Force {
+                forward: along.forward,
+                yaw: along.yaw_rate,
+                joints: along.joints,
+            });
+        }
+        force
+    }
+}

@@ -1,0 +1,321 @@
+//! The closed loop: reference, controller, plant, metrics and digest, tick by tick.
+
+use mm_control::{ControlError, ControlStack, Input, Output, Reference, Signals, required_gain};
+use mm_model::{Force, Mechanism, Torque, Velocity};
+use nalgebra::Vector3;
+
+use crate::digest::Digest;
+use crate::metrics::{Accumulator, Metrics, Tick};
+use crate::plant::{Plant, PlantState, Sines};
+use crate::trajectory::Trajectory;
+
+/// A closed loop with everything checked: what a scenario becomes.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    /// Controller.
+    pub stack: ControlStack<f64, 3>,
+    /// Plant.
+    pub plant: Plant,
+    /// Reference.
+    pub trajectory: Trajectory,
+    /// State at time 0.
+    pub initial: PlantState,
+    /// Clock.
+    pub clock: Clock,
+}
+
+/// Ticks of the controller and steps of the plant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clock {
+    /// Control period, s.
+    pub period: f64,
+    /// Plant steps in a control period.
+    pub substeps: u32,
+    /// Control ticks in the run.
+    pub ticks: u64,
+    /// A sample is given to the recorder every so many ticks.
+    pub log_every: u64,
+}
+
+impl Clock {
+    /// Time of a tick, s.
+    #[must_use]
+    #[inline]
+    #[expect(clippy::cast_precision_loss, reason = "a tick count is far below 2^53")]
+    pub fn time(&self, tick: u64) -> f64 {
+        tick as f64 * self.period
+    }
+
+    /// Duration of the run, s.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.time(self.ticks)
+    }
+}
+
+/// One logged instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample<'a> {
+    /// Time, s.
+    pub t: f64,
+    /// True state.
+    pub state: &'a PlantState,
+    /// True tip, m.
+    pub tip: Vector3<f64>,
+    /// Reference.
+    pub reference: &'a Reference<f64>,
+    /// Torque at the plant's input.
+    pub torque: &'a Torque<f64, 3>,
+    /// Disturbance as a generalized force.
+    pub external: Force<f64, 3>,
+    /// Switching gain that the reaching condition asks for.
+    pub required_gain: Force<f64, 3>,
+    /// Square of the true manipulability.
+    pub manipulability_squared: f64,
+    /// The controller's outcomes and signals; none for an imposed motion.
+    pub output: Option<&'a Output<f64, 3>>,
+}
+
+/// Takes the samples of a run, and may end it.
+pub trait Recorder {
+    /// What can go wrong in taking a sample.
+    type Error;
+    /// Takes a sample; `false` asks to stop here.
+    ///
+    /// # Errors
+    /// The recorder's own.
+    fn record(&mut self, sample: &Sample<'_>) -> Result<bool, Self::Error>;
+}
+
+/// A recorder that keeps nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoRecorder;
+
+impl Recorder for NoRecorder {
+    type Error = core::convert::Infallible;
+    fn record(&mut self, _sample: &Sample<'_>) -> Result<bool, Self::Error> {
+        Ok(true)
+    }
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ending {
+    /// The whole duration was simulated.
+    Finished,
+    /// The recorder asked to stop.
+    Stopped {
+        /// When, s.
+        t: f64,
+    },
+    /// The loop ran away.
+    Diverged {
+        /// When, s.
+        t: f64,
+        /// Which state, in words.
+        state: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The controller refused its input.
+    Refused {
+        /// When, s.
+        t: f64,
+        /// Why.
+        error: ControlError,
+    },
+}
+
+/// What a run gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunResult {
+    /// Metrics over the ticks simulated.
+    pub metrics: Metrics,
+    /// Digest of the trajectory: XXH3-128 in hexadecimal digits.
+    pub digest: String,
+    /// How it ended.
+    pub ending: Ending,
+    /// First time at which a joint was outside its limits, s.
+    pub joint_limit_crossed_at: Option<f64>,
+    /// State after the last step.
+    pub last: PlantState,
+}
+
+impl Simulation {
+    /// Runs the closed loop.
+    ///
+    /// At each control tick: true tip and error, controller, metrics, digest; then the plant under the held torque.
+    ///
+    /// # Errors
+    /// Those of the recorder; the run ends there.
+    pub fn run<R: Recorder>(&self, recorder: &mut R) -> Result<RunResult, R::Error> {
+        let mut run = Run::new(self);
+        let mut ending = Ending::Finished;
+        for tick in 0..self.clock.ticks {
+            if let Some(early) = run.tick(tick, recorder)? {
+                ending = early;
+                break;
+            }
+        }
+        Ok(run.result(ending))
+    }
+}
+
+/// A run under way.
+struct Run<'a> {
+    simulation: &'a Simulation,
+    control: mm_control::ControlState<f64, 3>,
+    state: PlantState,
+    metrics: Accumulator,
+    digest: Digest,
+    authority: Force<f64, 3>,
+    reaching: bool,
+    crossed_at: Option<f64>,
+}
+
+impl<'a> Run<'a> {
+    fn new(simulation: &'a Simulation) -> Self {
+        let clock = &simulation.clock;
+        Self {
+            simulation,
+            control: simulation.stack.initial_state(),
+            state: simulation.initial,
+            metrics: Accumulator::new(clock.duration(), clock.period),
+            digest: Digest::new(),
+            authority: simulation.stack.law().authority(),
+            reaching: true,
+            crossed_at: None,
+        }
+    }
+
+    /// One control period; `Some` ends the run.
+    #[inline]
+    fn tick<R: Recorder>(&mut self, tick: u64, recorder: &mut R) -> Result<Option<Ending>, R::Error> {
+        let Simulation { stack, plant, trajectory, clock, .. } = self.simulation;
+        let t = clock.time(tick);
+        let reference = trajectory.at(t);
+        let PlantState { q, nu, .. } = self.state;
+        let sines = plant.sines(&q);
+        let robot = plant.robot();
+        let tip = robot.tip_offset(sines.heading, &sines.posture) + Vector3::new(q.x, q.y, 0.0);
+        let error = tip - reference.position;
+        if let Some((state, value)) = runaway(&error, &nu) {
+            return Ok(Some(Ending::Diverged { t, state, value }));
+        }
+        let output = match stack.update(&mut self.control, &Input { q, nu, reference }) {
+            Ok(output) => output,
+            Err(error) => return Ok(Some(Ending::Refused { t, error })),
+        };
+        let manipulability_squared = robot.manipulability_squared(&sines.posture);
+        self.measure(t, error, &output, manipulability_squared);
+        if tick.is_multiple_of(clock.log_every) {
+            let sample = self.sample(t, (tip, &reference), &sines, &output, manipulability_squared);
+            if !recorder.record(&sample)? {
+                return Ok(Some(Ending::Stopped { t }));
+            }
+        }
+        self.advance(t, sines, &output.torque);
+        Ok(None)
+    }
+
+    #[inline]
+    fn measure(
+        &mut self,
+        t: f64,
+        error: Vector3<f64>,
+        output: &Output<f64, 3>,
+        manipulability_squared: f64,
+    ) {
+        let PlantState { q, nu, .. } = &self.state;
+        let robot = self.simulation.plant.robot();
+        let wheels = robot.wheel_rates(nu.forward, nu.yaw_rate);
+        let [l1, l2, l3] = robot.params().limits.joints;
+        let [q1, q2, q3] = q.joints;
+        let within = |angle: f64, (lo, hi): (f64, f64)| angle >= lo && angle <= hi;
+        let within_limits = [within(q1, l1), within(q2, l2), within(q3, l3)];
+        if self.crossed_at.is_none() && within_limits != [true; 3] {
+            self.crossed_at = Some(t);
+        }
+        self.metrics.add(&Tick {
+            t,
+            error,
+            nu,
+            wheels: (wheels.right, wheels.left),
+            torque: &output.torque,
+            sliding: &output.signals.sliding,
+            manipulability_squared,
+            saturated: output.status.saturated,
+            within_limits,
+        });
+        self.digest.add(t, q, nu, &output.torque);
+    }
+
+    /// A sample for the recorder, with the reaching condition, which only a simulator can evaluate.
+    #[inline(never)]
+    fn sample<'b>(
+        &'b mut self,
+        t: f64,
+        (tip, reference): (Vector3<f64>, &'b Reference<f64>),
+        sines: &Sines,
+        output: &'b Output<f64, 3>,
+        manipulability_squared: f64,
+    ) -> Sample<'b> {
+        let Simulation { stack, plant, .. } = self.simulation;
+        let external = plant.external(t, sines);
+        let PlantState { q, nu, .. } = &self.state;
+        let signals: &Signals<f64, 3> = &output.signals;
+        let margin = &stack.gains().reaching_margin;
+        let required = required_gain((stack.robot(), plant.robot()), (q, nu), signals, &external, margin);
+        // A law has to offer what is asked for but for rounding.
+        self.reaching &= required
+            .channels()
+            .zip(self.authority.channels())
+            .all(|(needed, offered)| needed <= offered + 1e-9 * (1.0 + offered));
+        Sample {
+            t,
+            state: &self.state,
+            tip,
+            reference,
+            torque: &output.torque,
+            external,
+            required_gain: required,
+            manipulability_squared,
+            output: Some(output),
+        }
+    }
+
+    /// The plant over one control period.
+    #[inline]
+    fn advance(&mut self, t: f64, sines: Sines, torque: &Torque<f64, 3>) {
+        let Simulation { plant, clock, .. } = self.simulation;
+        self.state = plant.step(t, &self.state, &sines, torque);
+        let step = clock.period / f64::from(clock.substeps);
+        for i in 1..clock.substeps {
+            let sines = plant.sines(&self.state.q);
+            self.state = plant.step(t + f64::from(i) * step, &self.state, &sines, torque);
+        }
+    }
+
+    fn result(self, ending: Ending) -> RunResult {
+        RunResult {
+            metrics: self.metrics.finish(Some(self.reaching)),
+            digest: self.digest.finish(),
+            ending,
+            joint_limit_crossed_at: self.crossed_at,
+            last: self.state,
+        }
+    }
+}
+
+/// The first state that shows that the loop ran away: non-finite, |e| above 10 m, a velocity above 1000.
+#[inline]
+pub(crate) fn runaway(error: &Vector3<f64>, nu: &Velocity<f64, 3>) -> Option<(&'static str, f64)> {
+    let squared = error.x * error.x + error.y * error.y + error.z * error.z;
+    let fast = |x: f64| !(x.abs() <= 1000.0);
+    if squared <= 100.0 && !nu.channels().any(fast) {
+        return None;
+    }
+    let names = ["forward speed (m/s)", "yaw rate (rad/s)", "rate of joint 1 (rad/s)", "rate of joint 2 (rad/s)", "rate of joint 3 (rad/s)"];
+    let velocity = names.into_iter().zip(nu.channels()).find(|(_, value)| fast(*value));
+    Some(velocity.unwrap_or(("distance of the tip from its reference (m)", mm_model::Real::sqrt(squared))))
+}
