@@ -24,11 +24,14 @@ impl Cdr {
         &self.buffer
     }
 
-    /// Fills with zeros up to a multiple of `size`, a power of two.
+    /// Fills with zeros up to a multiple of `size`, 4 or 8.
+    #[inline]
     fn align(&mut self, size: usize) {
-        let offset = self.buffer.len() - ENCAPSULATION.len();
-        let padded = offset.next_multiple_of(size) + ENCAPSULATION.len();
-        self.buffer.resize(padded, 0);
+        const ZEROS: [u8; 8] = [0; 8];
+        let beyond = (self.buffer.len() - ENCAPSULATION.len()) % size;
+        if beyond != 0 {
+            self.buffer.extend_from_slice(&ZEROS[..size - beyond]);
+        }
     }
 
     /// `bool`.
@@ -49,6 +52,7 @@ impl Cdr {
     }
 
     /// `float64`.
+    #[inline]
     pub(super) fn f64(&mut self, value: f64) {
         self.align(8);
         self.buffer.extend_from_slice(&value.to_le_bytes());
@@ -56,8 +60,11 @@ impl Cdr {
 
     /// A fixed-size array of `float64`, or several `float64` fields in a row.
     pub(super) fn f64s(&mut self, values: &[f64]) {
-        for &value in values {
-            self.f64(value);
+        if !values.is_empty() {
+            self.align(8);
+            for value in values {
+                self.buffer.extend_from_slice(&value.to_le_bytes());
+            }
         }
     }
 
