@@ -10,7 +10,7 @@ use mcap::{Message, MessageStream};
 use mm_sim::log::{LogError, LogHeader, LogSample, LogWriter, Outcome, RobotShape, control_field_names};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::rc::Rc;
 use std::time::Duration;
@@ -255,7 +255,9 @@ impl Write for Shared {
 #[test]
 fn a_run_that_is_killed_leaves_what_was_flushed() {
     let file = Shared::default();
-    let mut writer = LogWriter::to_sink(file.clone(), "killed.mcap", &header(&[])).expect("a vector");
+    // Buffered, as a file is: a flush has to go through.
+    let sink = BufWriter::with_capacity(1 << 20, file.clone());
+    let mut writer = LogWriter::to_sink(sink, "killed.mcap", &header(&[])).expect("a vector");
     let start = file.0.borrow().clone();
     let text = String::from_utf8_lossy(&start);
     assert!(text.contains("duration_s = 2.0"), "the scenario's attachment is there before the first sample");
