@@ -8,9 +8,11 @@
 
 pub mod digest;
 pub mod disturbance;
+pub mod log;
 pub mod metrics;
 pub mod plant;
 pub mod random;
+pub mod scenario;
 pub mod simulation;
 pub mod trajectory;
 
