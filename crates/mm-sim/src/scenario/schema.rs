@@ -1,0 +1,187 @@
+//! The JSON Schema of scenario and robot files.
+
+use schemars::JsonSchema;
+use serde_json::{Map, Value};
+
+use super::types::{RobotFields, ScenarioFile};
+
+/// Returns the JSON Schema (draft 2020-12) of a scenario file, for editors and for the checker.
+#[must_use]
+pub fn schema() -> Value {
+    generate::<ScenarioFile>()
+}
+
+/// Returns the JSON Schema of a robot file.
+pub(super) fn robot_schema() -> Value {
+    generate::<RobotFields>()
+}
+
+fn generate<T: JsonSchema>() -> Value {
+    let mut schema = schemars::schema_for!(T).to_value();
+    drop_null(&mut schema);
+    schema
+}
+
+/// Takes out what JSON needs for an optional key and TOML, without a null, does not have.
+fn drop_null(schema: &mut Value) {
+    match schema {
+        Value::Array(items) => items.iter_mut().for_each(drop_null),
+        Value::Object(object) => {
+            object.values_mut().for_each(drop_null);
+            if object.get("default").is_some_and(Value::is_null) {
+                object.shift_remove("default");
+            }
+            drop_null_type(object);
+            drop_null_branch(object);
+        }
+        _ => {}
+    }
+}
+
+fn drop_null_type(object: &mut Map<String, Value>) {
+    let Some(Value::Array(types)) = object.get_mut("type") else { return };
+    types.retain(|name| name != "null");
+    if let [only] = types.as_slice() {
+        let only = only.clone();
+        object.insert("type".to_owned(), only);
+    }
+}
+
+fn drop_null_branch(object: &mut Map<String, Value>) {
+    let Some(Value::Array(branches)) = object.get_mut("anyOf") else { return };
+    branches.retain(|branch| branch.get("type").is_none_or(|name| name != "null"));
+    if let [Value::Object(only)] = branches.as_slice() {
+        let only = only.clone();
+        object.shift_remove("anyOf");
+        for (key, value) in only {
+            object.entry(key).or_insert(value);
+        }
+    }
+}
+
+/// A schema together with the definitions that its references name.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct View<'a> {
+    root: &'a Value,
+    at: &'a Value,
+}
+
+impl<'a> View<'a> {
+    pub(super) const fn new(root: &'a Value) -> Self {
+        Self { root, at: root }
+    }
+
+    const fn with(self, at: &'a Value) -> Self {
+        Self { root: self.root, at }
+    }
+
+    /// The value of a schema keyword, here or where the schema refers to.
+    pub(super) fn get(self, keyword: &str) -> Option<&'a Value> {
+        self.at.get(keyword).or_else(|| self.target()?.get(keyword))
+    }
+
+    /// The text of a schema keyword.
+    pub(super) fn text(self, keyword: &str) -> Option<&'a str> {
+        self.get(keyword)?.as_str()
+    }
+
+    fn target(self) -> Option<&'a Value> {
+        let reference = self.at.get("$ref")?.as_str()?;
+        self.root.pointer(reference.strip_prefix('#')?)
+    }
+
+    fn list(self, keyword: &str) -> impl Iterator<Item = Self> {
+        self.get(keyword).and_then(Value::as_array).into_iter().flatten().map(move |at| self.with(at))
+    }
+
+    /// The schemas of which a value needs to meet one.
+    pub(super) fn alternatives(self) -> Vec<Self> {
+        self.list("anyOf").collect()
+    }
+
+    /// The schema of an array's entries.
+    pub(super) fn items(self) -> Option<Self> {
+        self.get("items").map(|at| self.with(at))
+    }
+
+    /// The words that a value may be, if they are all it may be.
+    pub(super) fn words(self) -> Vec<&'a str> {
+        let listed =
+            self.get("enum").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str);
+        let branches: Vec<Self> = self.list("oneOf").collect();
+        let named =
+            branches.iter().flat_map(|branch| branch.text("const").into_iter().chain(branch.list_words()));
+        listed.chain(named).collect()
+    }
+
+    fn list_words(self) -> impl Iterator<Item = &'a str> {
+        self.at.get("enum").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str)
+    }
+
+    /// The key and its schema for each key of a table, without those of a kind.
+    pub(super) fn properties(self) -> Vec<(&'a str, Self)> {
+        let map = self.get("properties").and_then(Value::as_object);
+        map.into_iter().flatten().map(|(key, at)| (key.as_str(), self.with(at))).collect()
+    }
+
+    /// The keys that a table must have.
+    pub(super) fn required(self) -> Vec<&'a str> {
+        self.get("required")
+            .and_then(Value::as_array)
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_str)
+            .collect()
+    }
+
+    /// The kinds of a table that has a key, the tag, to tell them apart.
+    pub(super) fn kinds(self) -> Vec<Kind<'a>> {
+        let kind = |branch: Self| {
+            let (tag, name) = branch
+                .properties()
+                .into_iter()
+                .find_map(|(key, property)| Some((key, property.text("const")?)))?;
+            Some(Kind { tag, name, schema: branch })
+        };
+        self.list("oneOf").filter_map(kind).collect()
+    }
+
+    /// Whether the schema describes a table.
+    pub(super) fn is_table(self) -> bool {
+        self.text("type") == Some("object")
+    }
+}
+
+/// One kind of a table, told by the value of its tag.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Kind<'a> {
+    pub(super) tag: &'a str,
+    pub(super) name: &'a str,
+    pub(super) schema: View<'a>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The checker refuses unknown keys by itself; an editor does so only when the schema says it.
+    #[test]
+    fn every_table_is_closed() {
+        fn walk(path: &str, schema: &Value, in_kind: bool) {
+            if let Value::Object(object) = schema {
+                let is_table = object.get("type").is_some_and(|name| name == "object");
+                let closed = ["additionalProperties", "unevaluatedProperties"]
+                    .iter()
+                    .any(|keyword| object.get(*keyword) == Some(&Value::Bool(false)));
+                assert!(!is_table || closed || in_kind, "{path} takes any key");
+                for (key, value) in object {
+                    walk(&format!("{path}/{key}"), value, key == "oneOf");
+                }
+            } else if let Value::Array(items) = schema {
+                items.iter().for_each(|item| walk(path, item, in_kind));
+            }
+        }
+        walk("", &schema(), false);
+        walk("", &robot_schema(), false);
+    }
+}
