@@ -139,7 +139,7 @@ fn assemble(name: &str, text: &str, folder: &Path, sets: &[String]) -> Result<Lo
             problems.push(*problem);
         }
     }
-    problems.extend(check::check(&sources, &schema(), &root));
+    problems.extend(check::check(&sources, &schema::SCENARIO, &root));
     problems.extend(rules::check(&root));
     robot_file(&mut root, &mut sources, folder, &mut problems)?;
     if !problems.is_empty() {
@@ -186,7 +186,7 @@ fn robot_file(
     let source = sources.len();
     sources.push(Source { name: shown, text });
     let mut below = parse(sources, source)?;
-    let found = check::check(sources, &schema::robot_schema(), &below);
+    let found = check::check(sources, &schema::ROBOT, &below);
     problems.extend(found);
     problems.extend(rules::check_robot(&below));
     let (Value::Table(fields), Value::Table(entries)) = (&mut below.value, &mut root.value) else {

@@ -2,6 +2,8 @@
 //!
 //! `MMSIM_BLESS=1 cargo test -p mm-sim --test scenario_reference` writes them anew.
 
+#![expect(clippy::unwrap_used, reason = "a helper of tests reports like a test")]
+
 use std::path::PathBuf;
 
 use mm_sim::scenario;

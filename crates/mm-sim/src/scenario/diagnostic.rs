@@ -9,6 +9,9 @@ use super::tree::Place;
 /// Longest expectation that stands beside the caret; a longer one gets its own line.
 const MAX_LABEL: usize = 48;
 
+/// Problems that are shown; a file with more of them is not meant as a scenario.
+const MAX_SHOWN: usize = 30;
+
 /// A named text that a scenario is made of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Source {
@@ -113,7 +116,7 @@ impl ScenarioError {
     pub fn location(&self, problem: &Problem) -> Option<(&str, usize, usize)> {
         let place = problem.place.as_ref()?;
         let source = self.sources.get(place.source)?;
-        let before = source.text.get(..place.span.start)?;
+        let before = source.text.get(..boundary(&source.text, place.span.start))?;
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         let line = before.matches('\n').count() + 1;
         let column = before.get(line_start..)?.chars().count() + 1;
@@ -149,24 +152,32 @@ impl ScenarioError {
     }
 }
 
-/// The part of a place on its first line, so that a caret never runs over a whole table.
+/// The part of a place on its first line, so that a caret never runs over a whole table, in whole characters.
 fn first_line(text: &str, place: &Place) -> std::ops::Range<usize> {
-    let end = text.len();
-    let start = place.span.start.min(end);
-    let stop = place.span.end.clamp(start, end);
+    let start = boundary(text, place.span.start);
+    let stop = boundary(text, place.span.end).max(start);
     let length = text.get(start..stop).and_then(|part| part.find(['\r', '\n'])).unwrap_or(stop - start);
     start..start + length
 }
 
+/// The last start of a character, or the end of the text, at or before a byte.
+fn boundary(text: &str, byte: usize) -> usize {
+    let byte = byte.min(text.len());
+    (0..=byte).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
+}
+
 impl fmt::Display for ScenarioError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, problem) in self.problems.iter().enumerate() {
+        for (index, problem) in self.problems.iter().take(MAX_SHOWN).enumerate() {
             if index > 0 {
                 f.write_str("\n\n")?;
             }
             f.write_str(&self.render(problem))?;
         }
-        Ok(())
+        match self.problems.len().saturating_sub(MAX_SHOWN) {
+            0 => Ok(()),
+            more => write!(f, "\n\nand {more} more"),
+        }
     }
 }
 

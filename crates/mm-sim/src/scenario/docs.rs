@@ -39,7 +39,7 @@ struct Row {
 }
 
 fn section(page: &mut String, view: View<'_>, title: &str, path: &str) {
-    heading(page, view, title);
+    let _ = write!(page, "\n## {title}\n\n{}\n", meaning(view));
     let mut rows = Vec::new();
     if let Some(first) = view.kinds().first() {
         let names: Vec<String> = view.kinds().iter().map(|kind| format!("`{}`", kind.name)).collect();
@@ -63,14 +63,6 @@ fn section(page: &mut String, view: View<'_>, title: &str, path: &str) {
     }
     for (title, path, view) in inner {
         section(page, view, &title, &path);
-    }
-}
-
-fn heading(page: &mut String, view: View<'_>, title: &str) {
-    let _ = write!(page, "\n## {title}\n\n{}\n", meaning(view));
-    let words = view.words();
-    if !words.is_empty() {
-        let _ = writeln!(page, "{}", words.join(", "));
     }
 }
 
@@ -137,9 +129,19 @@ fn default(view: View<'_>, is_required: bool) -> String {
     }
 }
 
-/// The description on one line.
+/// The description on one line, with that of each word that the value may be.
 fn meaning(view: View<'_>) -> String {
-    let text = view.text("description").unwrap_or_default();
+    let mut text = one_line(view.text("description").unwrap_or_default());
+    let words = view.words_and_meanings();
+    if words.len() > 1 {
+        for (word, meaning) in words.iter().filter(|(_, meaning)| !meaning.is_empty()) {
+            let _ = write!(text, " `{word}`: {}", one_line(meaning));
+        }
+    }
+    text
+}
+
+fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
 }
 

@@ -1,19 +1,22 @@
 //! The JSON Schema of scenario and robot files.
 
+use std::sync::LazyLock;
+
 use schemars::JsonSchema;
 use serde_json::{Map, Value};
 
 use super::types::{RobotFields, ScenarioFile};
 
+/// The schema of a scenario file.
+pub(super) static SCENARIO: LazyLock<Value> = LazyLock::new(generate::<ScenarioFile>);
+
+/// The schema of a robot file.
+pub(super) static ROBOT: LazyLock<Value> = LazyLock::new(generate::<RobotFields>);
+
 /// Returns the JSON Schema (draft 2020-12) of a scenario file, for editors and for the checker.
 #[must_use]
 pub fn schema() -> Value {
-    generate::<ScenarioFile>()
-}
-
-/// Returns the JSON Schema of a robot file.
-pub(super) fn robot_schema() -> Value {
-    generate::<RobotFields>()
+    SCENARIO.clone()
 }
 
 fn generate<T: JsonSchema>() -> Value {
@@ -106,16 +109,24 @@ impl<'a> View<'a> {
 
     /// The words that a value may be, if they are all it may be.
     pub(super) fn words(self) -> Vec<&'a str> {
-        let listed =
-            self.get("enum").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str);
-        let branches: Vec<Self> = self.list("oneOf").collect();
-        let named =
-            branches.iter().flat_map(|branch| branch.text("const").into_iter().chain(branch.list_words()));
-        listed.chain(named).collect()
+        self.words_and_meanings().into_iter().map(|(word, _)| word).collect()
     }
 
-    fn list_words(self) -> impl Iterator<Item = &'a str> {
-        self.at.get("enum").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str)
+    /// The words that a value may be, each with what it means.
+    pub(super) fn words_and_meanings(self) -> Vec<(&'a str, &'a str)> {
+        let plain = |view: Self| {
+            view.at.get("enum").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str)
+        };
+        let target = self.target().map(|at| self.with(at)).into_iter().flat_map(plain);
+        let branches = self.list("oneOf").flat_map(|branch| {
+            let meaning = branch.text("description").unwrap_or_default();
+            branch
+                .text("const")
+                .map(|word| (word, meaning))
+                .into_iter()
+                .chain(plain(branch).map(|word| (word, "")))
+        });
+        plain(self).chain(target).map(|word| (word, "")).chain(branches).collect()
     }
 
     /// The key and its schema for each key of a table, without those of a kind.
@@ -181,7 +192,7 @@ mod tests {
                 items.iter().for_each(|item| walk(path, item, in_kind));
             }
         }
-        walk("", &schema(), false);
-        walk("", &robot_schema(), false);
+        walk("", &SCENARIO, false);
+        walk("", &ROBOT, false);
     }
 }
