@@ -34,10 +34,11 @@ pub(in crate::scenario) fn set(root: &mut Node, source: usize, argument: &str) -
             .expected("for example simulation.duration_s")
             .boxed());
     }
-    let offset = key.len() + 1;
+    let offset = argument.len() - value.trim_start().len();
+    let value = value.trim();
     let node = parse_value(source, offset, value).unwrap_or_else(|| Node {
-        value: Value::String(value.trim().to_owned()),
-        place: Place { source, span: offset..argument.len() },
+        value: Value::String(value.to_owned()),
+        place: Place { source, span: offset..offset + value.len() },
     });
     displace_rival(root, source, &segments);
     insert(root, &segments, 0, node, &key_place)
