@@ -103,7 +103,11 @@ pub fn load(spec: &str, sets: &[String]) -> Result<Loaded, ScenarioError> {
     if is_bare && let Some(text) = bundled::find(spec) {
         return assemble(spec, text, Path::new(""), sets);
     }
-    let what = if is_bare { "no such file and no bundled scenario of that name" } else { "no such file" };
+    let what = match (path.is_dir(), is_bare) {
+        (true, _) => "it is a folder",
+        (false, true) => "no such file and no bundled scenario of that name",
+        (false, false) => "no such file",
+    };
     let stem = path.file_stem().and_then(std::ffi::OsStr::to_str).unwrap_or(spec);
     let problem = Problem::without_place(format!("cannot read scenario `{spec}`: {what}"))
         .expected("a file or one of the bundled scenarios: `mmsim scenario list`")

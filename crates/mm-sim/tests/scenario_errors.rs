@@ -288,6 +288,7 @@ fn missing_file() {
         ("sqare", "`square`"),
         ("nowhere/spiral.toml", "`spiral`"),
         ("square-compar", "`square-compare`"),
+        ("nothing-like-it.toml", "no bundled scenario of that name"),
     ];
     for (spec, near) in cases {
         let error = scenario::load(spec, &[]).err().unwrap_or_else(|| panic!("{spec} exists"));

@@ -158,5 +158,5 @@ fn a_file_comes_before_a_bundled_scenario() {
     let loaded = scenario::load(path.to_str().unwrap(), &[]).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(loaded.name(), "p", "the file, not the bundled square");
     let shown = scenario::load(folder.to_str().unwrap(), &[]).err().map(|error| error.to_string());
-    assert!(shown.is_some_and(|shown| shown.contains("file_first")), "a folder is no scenario");
+    assert!(shown.is_some_and(|shown| shown.contains("it is a folder")), "a folder is no scenario");
 }

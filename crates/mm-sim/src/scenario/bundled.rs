@@ -1,6 +1,6 @@
 //! The scenarios that the binary carries.
 
-use super::nearest::nearest;
+use super::nearest::{is_near, nearest};
 
 macro_rules! bundle {
     ($($name:literal),+ $(,)?) => {
@@ -36,7 +36,8 @@ pub(super) fn find(spec: &str) -> Option<&'static str> {
     BUNDLED.iter().find(|(bundled, _)| *bundled == name).map(|(_, text)| *text)
 }
 
-/// The bundled name that a misspelt one most likely means.
+/// The bundled name that a name looks like.
 pub(super) fn nearest_name(spec: &str) -> Option<&'static str> {
-    nearest(spec.strip_suffix(".toml").unwrap_or(spec), BUNDLED.iter().map(|(name, _)| *name))
+    let word = spec.strip_suffix(".toml").unwrap_or(spec);
+    nearest(word, BUNDLED.iter().map(|(name, _)| *name)).filter(|name| is_near(word, name))
 }

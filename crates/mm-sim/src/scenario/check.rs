@@ -181,9 +181,11 @@ impl Checker<'_> {
         let problem = match chosen {
             Some(chosen) if !takers.is_empty() => {
                 let message = format!("not a key of {} = \"{}\"", chosen.tag, chosen.name);
-                Problem::new(path, message, place.clone())
-                    .expected(format!("only with {} {}", chosen.tag, one_of(&takers)))
-                    .nearest(nearest(name, names))
+                Problem::new(path, message, place.clone()).expected(format!(
+                    "only with {} {}",
+                    chosen.tag,
+                    one_of(&takers)
+                ))
             }
             _ => {
                 let elsewhere =
@@ -278,6 +280,7 @@ pub(super) fn describe(view: View<'_>) -> String {
             let bound = |keyword| view.get(keyword).and_then(Json::as_u64);
             match (bound("minItems"), bound("maxItems")) {
                 (Some(least), Some(most)) if least == most => format!("an array of {least} {items}"),
+                (Some(1), None) => format!("a non-empty array of {items}"),
                 (Some(least), None) => format!("an array of at least {least} {items}"),
                 (_, Some(most)) => format!("an array of at most {most} {items}"),
                 (None, None) => format!("an array of {items}"),

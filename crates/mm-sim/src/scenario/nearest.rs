@@ -13,6 +13,11 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     })
 }
 
+/// Whether a word is so near to another that it may well be a misspelling of it.
+pub(super) fn is_near(word: &str, other: &str) -> bool {
+    distance(&word.to_lowercase(), &other.to_lowercase()) <= 1 + other.chars().count() / 4
+}
+
 /// Counts the insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`
 /// (optimal string alignment).
 fn distance(a: &str, b: &str) -> usize {
@@ -54,5 +59,6 @@ mod tests {
         assert_eq!(nearest("mass", ["com_m", "mass_kg", "max"]), Some("mass_kg"), "unit forgotten");
         assert_eq!(nearest("Duration_S", ["seed", "duration_s"]), Some("duration_s"), "case");
         assert_eq!(nearest("x", []), None, "nothing known");
+        assert!(is_near("sqare", "square") && !is_near("tmp", "spiral"), "a slip and another word");
     }
 }
