@@ -5,7 +5,7 @@
 //! still optional: building the checked robot, reference and controller from it is the caller's, who reports
 //! what it finds with [`Loaded::problem`], so that every message points at a place in the file.
 //!
-//! The types are the one source of the format: [`schema`] and [`markdown`] are generated from them, and the
+//! The types are the one source of the format: [`schema()`] and [`markdown`] are generated from them, and the
 //! checker walks the same schema.
 
 mod bundled;
