@@ -1,0 +1,199 @@
+//! Rules between keys, which a schema cannot say.
+
+use super::diagnostic::Problem;
+use super::tree::{Node, Value};
+use super::types::DEFAULT_PERIOD_S;
+
+/// Relative error up to which one period counts as a whole multiple of another.
+const MULTIPLE_TOLERANCE: f64 = 1e-9;
+
+/// Returns every broken rule. Values that do not even fit the schema are passed over.
+pub(super) fn check(root: &Node) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    name(root, &mut problems);
+    clock(root, &mut problems);
+    exclusive(root, &mut problems);
+    joint_limits(root, "robot.link", &mut problems);
+    segments(root, &mut problems);
+    imposed(root, &mut problems);
+    for (index, disturbance) in items(root, "disturbance").iter().enumerate() {
+        one_disturbance(disturbance, index, &mut problems);
+    }
+    if let Some(expect) = root.find("expect") {
+        bounds(expect, "expect", &mut problems);
+    }
+    problems
+}
+
+/// Checks what a robot file alone can break.
+pub(super) fn check_robot(root: &Node) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    joint_limits(root, "link", &mut problems);
+    problems
+}
+
+fn items<'a>(root: &'a Node, key: &str) -> &'a [Node] {
+    root.find(key).map_or(&[], Node::items)
+}
+
+fn positive(root: &Node, key: &str) -> Option<f64> {
+    root.number(key).filter(|value| *value > 0.0)
+}
+
+fn name(root: &Node, problems: &mut Vec<Problem>) {
+    let Some(node) = root.find("name") else { return };
+    let Some(text) = node.as_str() else { return };
+    if text.starts_with('.') || text.contains(|c: char| c == '/' || c == '\\' || c.is_control()) {
+        problems.push(
+            Problem::new("name", "not a file name", node.place.clone())
+                .expected("no `/`, `\\` or control character and no leading dot"),
+        );
+    }
+}
+
+fn clock(root: &Node, problems: &mut Vec<Problem>) {
+    // A key that is absent has its default; one that is out of range is reported by the schema.
+    let period_or_default = |key: &str| match root.find(key) {
+        Some(_) => positive(root, key),
+        None => Some(DEFAULT_PERIOD_S),
+    };
+    let Some(period) = period_or_default("simulation.control_period_s") else { return };
+    if let Some(step) = period_or_default("simulation.plant_step_s") {
+        let steps = period / step;
+        let whole = steps.round();
+        if !steps.is_finite() || whole < 1.0 || (steps - whole).abs() > MULTIPLE_TOLERANCE * whole {
+            let key = "simulation.plant_step_s";
+            problems.push(
+                Problem::new(
+                    key,
+                    format!("found {step}, which does not divide the control period"),
+                    root.place_of(key),
+                )
+                .expected(format!("control_period_s = {period} over a whole number")),
+            );
+        }
+    }
+    if let Some(duration) = positive(root, "simulation.duration_s")
+        && duration < period * (1.0 - MULTIPLE_TOLERANCE)
+    {
+        let key = "simulation.duration_s";
+        problems.push(
+            Problem::new(
+                key,
+                format!("found {duration}, shorter than one control period"),
+                root.place_of(key),
+            )
+            .expected(format!("at least {period}")),
+        );
+    }
+}
+
+fn exclusive(root: &Node, problems: &mut Vec<Problem>) {
+    for (one, other) in [("robot.preset", "robot.file"), ("initial.base_pose", "initial.tip")] {
+        if root.find(one).is_some() && root.find(other).is_some() {
+            problems.push(
+                Problem::new(other, format!("given together with `{one}`"), root.place_of(other))
+                    .expected("only one of the two"),
+            );
+        }
+    }
+}
+
+fn joint_limits(root: &Node, links: &str, problems: &mut Vec<Problem>) {
+    for (index, link) in items(root, links).iter().enumerate() {
+        if let [lo, hi] = items(link, "joint_limit_rad")
+            && let (Some(lo), Some(hi)) = (lo.as_number(), hi.as_number())
+            && lo >= hi
+        {
+            let key = format!("{links}.{index}.joint_limit_rad");
+            let place = link.place_of("joint_limit_rad");
+            problems.push(
+                Problem::new(&key, format!("found [{lo}, {hi}]"), place)
+                    .expected("[lo, hi] with lo below hi"),
+            );
+        }
+    }
+}
+
+fn segments(root: &Node, problems: &mut Vec<Problem>) {
+    let mut last = 0.0;
+    for (index, segment) in items(root, "trajectory.segment").iter().enumerate() {
+        let Some(until) = positive(segment, "until_s") else { continue };
+        if until <= last {
+            let key = format!("trajectory.segment.{index}.until_s");
+            problems.push(
+                Problem::new(&key, format!("found {until}"), segment.place_of("until_s"))
+                    .expected(format!("more than the {last} of the piece before")),
+            );
+        }
+        last = until;
+    }
+}
+
+fn imposed(root: &Node, problems: &mut Vec<Problem>) {
+    let kind = |key: &str| root.find(key).and_then(Node::as_str);
+    if kind("controller.kind") == Some("none")
+        && let Some(trajectory) = kind("trajectory.kind")
+        && trajectory != "velocities"
+    {
+        let message = format!("found \"none\" with trajectory.kind = \"{trajectory}\"");
+        problems.push(
+            Problem::new("controller.kind", message, root.place_of("controller.kind"))
+                .expected("`none` only with imposed `velocities`"),
+        );
+    }
+}
+
+fn one_disturbance(disturbance: &Node, index: usize, problems: &mut Vec<Problem>) {
+    let mut report = |name: &str, message: &str, expected: &str| {
+        let key = format!("disturbance.{index}.{name}");
+        problems.push(Problem::new(&key, message, disturbance.place_of(name)).expected(expected));
+    };
+    let from = disturbance.number("from_s").unwrap_or(0.0);
+    if let Some(to) = positive(disturbance, "to_s")
+        && to <= from
+    {
+        report("to_s", &format!("found {to}"), &format!("more than from_s = {from}"));
+    }
+    let Some(target) = disturbance.find("on").and_then(Node::as_str) else { return };
+    let on_tip = target == "tip";
+    for (name, for_tip) in [("amplitude_n_m", false), ("amplitude_n", true), ("direction", true)] {
+        let is_given = disturbance.find(name).is_some();
+        if is_given && for_tip != on_tip {
+            let right = if on_tip { "`amplitude_n` and `direction`" } else { "`amplitude_n_m`" };
+            report(name, &format!("not a key of on = \"{target}\""), right);
+        } else if !is_given && for_tip == on_tip {
+            report(name, "missing key", &format!("a value, since on = \"{target}\""));
+        }
+    }
+    let direction = items(disturbance, "direction");
+    if !direction.is_empty()
+        && direction.iter().all(|part| part.as_number().is_some_and(|part| part.abs() <= 0.0))
+    {
+        report("direction", "found no direction", "a part that is not zero");
+    }
+}
+
+fn bounds(node: &Node, key: &str, problems: &mut Vec<Problem>) {
+    if let (Some(min), Some(max)) = (node.number("min"), node.number("max"))
+        && min > max
+    {
+        problems.push(
+            Problem::new(key, format!("found min = {min} above max = {max}"), node.place.clone())
+                .expected("min not above max"),
+        );
+    }
+    match &node.value {
+        Value::Table(table) => {
+            for (name, entry) in table {
+                bounds(&entry.node, &format!("{key}.{name}"), problems);
+            }
+        }
+        Value::Array(entries) => {
+            for (index, entry) in entries.iter().enumerate() {
+                bounds(entry, &format!("{key}.{index}"), problems);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,130 @@
+//! The keys of a scenario file, as plain data.
+//!
+//! These types are the one source of the file format: the doc comments, defaults and ranges below become
+//! the JSON Schema, the schema drives the checker, and the reference page is generated from it. A key that
+//! carries a quantity ends in its unit. Values are in SI units and radians.
+
+mod controller;
+mod disturbance;
+mod expect;
+mod ranges;
+mod robot;
+mod trajectory;
+
+use ranges::{NonNegative, Positive};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+pub use controller::{Controller, ControllerKind, Gains, Outer, PerAxis, PerChannel};
+pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
+pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
+pub use robot::{Friction, Link, Plant, Preset, Robot, RobotFields};
+pub use trajectory::{Motion, Segment, Trajectory};
+
+/// The period of the plant and of the controller when the file names none, in seconds.
+pub(super) const DEFAULT_PERIOD_S: f64 = 1e-3;
+
+/// One experiment: a robot, what it shall do, what disturbs it and what is expected of the result.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "mmsim scenario")]
+pub struct ScenarioFile {
+    /// Name of the run and of its log file: no path separator, no control character, no leading dot.
+    #[schemars(length(min = 1, max = 100), extend("pattern" = r"^[^./\\\x00-\x1f][^/\\\x00-\x1f]*$"))]
+    pub name: String,
+    /// What the scenario shows, in a sentence or two.
+    #[serde(default)]
+    pub description: String,
+    /// Where it comes from, for example a section of the thesis.
+    #[serde(default)]
+    pub source: String,
+    /// Clock, integration and randomness.
+    pub simulation: Simulation,
+    /// The robot that the controller knows. Default: the preset `thesis`.
+    #[serde(default)]
+    pub robot: Robot,
+    /// How the simulated robot differs from the one that the controller knows.
+    #[serde(default)]
+    pub plant: Plant,
+    /// State at time zero; the robot starts at rest.
+    #[serde(default)]
+    pub initial: Initial,
+    /// What the tip of the arm (or, open loop, the whole robot) shall do.
+    pub trajectory: Trajectory,
+    /// The control law and its gains.
+    #[serde(default)]
+    pub controller: Controller,
+    /// Torques and forces that act on the plant unknown to the controller; they add up.
+    #[serde(default)]
+    pub disturbance: Vec<Disturbance>,
+    /// Bounds on the metrics of the run, checked at its end; the keys are those of `metrics` in the summary.
+    #[serde(default)]
+    pub expect: Expect,
+}
+
+/// Clock, integration and randomness.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Simulation {
+    /// Simulated time; at least one control period.
+    #[schemars(with = "Positive")]
+    pub duration_s: f64,
+    /// Step of the plant's integrator; the control period is a whole multiple of it.
+    #[serde(default = "default_period")]
+    #[schemars(with = "Positive")]
+    pub plant_step_s: f64,
+    /// Time between two updates of the controller.
+    #[serde(default = "default_period")]
+    #[schemars(with = "Positive")]
+    pub control_period_s: f64,
+    /// How the plant is integrated.
+    #[serde(default)]
+    pub integrator: Integrator,
+    /// Seed of every random number in the run.
+    #[serde(default)]
+    pub seed: u64,
+    /// Records a second in the log; the metrics do not depend on it.
+    #[serde(default = "default_log_rate")]
+    #[schemars(with = "Positive")]
+    pub log_rate_hz: f64,
+}
+
+const fn default_period() -> f64 {
+    DEFAULT_PERIOD_S
+}
+
+const fn default_log_rate() -> f64 {
+    100.0
+}
+
+/// How the plant is integrated.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Integrator {
+    /// Runge-Kutta of fourth order with a fixed step.
+    #[default]
+    Rk4,
+}
+
+/// State at time zero; the robot starts at rest.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Initial {
+    /// Pose of the base, `[x_m, y_m, heading_rad]`; excludes `tip`.
+    pub base_pose: Option<[f64; 3]>,
+    /// Joint angles from the base to the tip. Default: the robot's rest posture.
+    pub joints_rad: Option<[f64; 3]>,
+    /// Places the base by the reference instead of by `base_pose`. Default: `on-reference`, when
+    /// `base_pose` is not given.
+    pub tip: Option<TipStart>,
+}
+
+/// Where the tip of the arm is at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum TipStart {
+    /// On the reference in x and y, the base heading along the reference's velocity; z is not matched.
+    OnReference,
+}
