@@ -17,7 +17,7 @@
 //! ```
 //!
 //! Everything is generic over the scalar ([`Real`]: `f32` and `f64`) and the number of joints; the arm with yaw, pitch and
-//! pitch (N = 3) and the base alone (N = 0) are there in closed form. [`reference`] holds the literal, slow form of the
+//! pitch (N = 3) and the base alone (N = 0) are there in closed form. [`reference`](mod@reference) holds the literal, slow form of the
 //! thesis, against which the closed form is tested.
 //!
 //! # Conventions
@@ -51,6 +51,8 @@ mod platform;
 mod real;
 mod robot;
 mod tip;
+
+pub mod reference;
 
 pub use angle::Angle;
 pub use arm::{ArmInertia, ArmPosture, InverseKinematics, JointSolution};

@@ -4,6 +4,8 @@
 //! robot with its base's centre of mass on the axle, point masses at the link tips and link inertias of 1e-3 kg m^2. Reference:
 //! a CasADi derivation and Pinocchio agree on these digits. Tolerance: the digits given.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot build its robot has failed")]
+
 use mm_model::{Configuration, Force, Mechanism, Robot, RobotParams, Torque, Velocity};
 
 fn robot() -> Robot<f64, 3> {
