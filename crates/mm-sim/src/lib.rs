@@ -18,4 +18,3 @@ pub mod trajectory;
 
 /// Version of the stack.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-pub mod scenario;
