@@ -52,17 +52,22 @@ pub struct Disturbance {
 }
 
 impl Disturbance {
-    /// Size at time `t`.
+    /// Size at time `t` of an integration step that begins at `begin`.
+    ///
+    /// What jumps (on, off, the next random value) does so with the beginning of a step: no step of the integrator sees both
+    /// sides of a jump.
     #[must_use]
-    pub fn size(&self, t: f64) -> f64 {
-        if !(t >= self.from && t < self.to) {
+    pub fn size(&self, begin: f64, t: f64) -> f64 {
+        // Steps begin at multiples of the step, up to rounding.
+        let begin = begin + 1e-9;
+        if !(begin >= self.from && begin < self.to) {
             return 0.0;
         }
         self.amplitude
             * match self.shape {
                 Shape::Constant => 1.0,
                 Shape::Sine { frequency, phase } => Real::sin_cos(frequency * t + phase).0,
-                Shape::Noise { hold, seed } => noise_at(seed, Real::floor((t - self.from) / hold)),
+                Shape::Noise { hold, seed } => noise_at(seed, Real::floor((begin - self.from) / hold)),
             }
     }
 }
@@ -85,12 +90,12 @@ impl Disturbances {
         self.0.is_empty()
     }
 
-    /// Sum of the torques on the actuators' axes and of the forces at the tip at time `t`.
+    /// Sum of the torques on the actuators' axes and of the forces at the tip at time `t` of a step that begins at `begin`.
     #[must_use]
-    pub fn sizes(&self, t: f64) -> (Torque<f64, 3>, Vector3<f64>) {
+    pub fn sizes(&self, begin: f64, t: f64) -> (Torque<f64, 3>, Vector3<f64>) {
         let mut sum = (Torque::zero(), Vector3::zeros());
         for disturbance in &self.0 {
-            let size = disturbance.size(t);
+            let size = disturbance.size(begin, t);
             match disturbance.target {
                 Target::Torque(factors) => sum.0 = sum.0.plus(factors.scaled(size)),
                 Target::Tip(direction) => sum.1 += direction * size,
@@ -99,13 +104,13 @@ impl Disturbances {
         sum
     }
 
-    /// The generalized force at time `t`: B times the torques, J' times the forces at the tip.
+    /// The generalized force at time `t` of a step that begins at `begin`: B times the torques, J' times the forces at the tip.
     #[must_use]
-    pub fn force(&self, t: f64, robot: &Robot<f64, 3>, sines: &Sines) -> Force<f64, 3> {
+    pub fn force(&self, (begin, t): (f64, f64), robot: &Robot<f64, 3>, sines: &Sines) -> Force<f64, 3> {
         if self.is_none() {
             return Force::zero();
         }
-        let (torque, at_tip) = self.sizes(t);
+        let (torque, at_tip) = self.sizes(begin, t);
         let mut force = robot.force_of(&torque);
         if self.0.iter().any(|d| matches!(d.target, Target::Tip(_))) {
             let jacobian = robot.tip_jacobian(sines.heading, &sines.posture);

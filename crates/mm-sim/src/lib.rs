@@ -8,6 +8,8 @@
 
 pub mod digest;
 pub mod disturbance;
+pub mod experiment;
+pub mod imposed;
 pub mod log;
 pub mod metrics;
 pub mod plant;

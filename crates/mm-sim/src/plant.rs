@@ -71,7 +71,7 @@ impl Plant {
     #[must_use]
     #[inline]
     pub fn external(&self, t: f64, sines: &Sines) -> Force<f64, 3> {
-        self.disturbances.force(t, &self.robot, sines)
+        self.disturbances.force((t, t), &self.robot, sines)
     }
 
     /// The state one step later, under a constant torque; `sines` are those of the state.
@@ -82,7 +82,7 @@ impl Plant {
     pub fn step(&self, t: f64, state: &PlantState, sines: &Sines, torque: &Torque<f64, 3>) -> PlantState {
         let (h, half) = (self.step, 0.5 * self.step);
         let force = self.robot.force_of(torque);
-        let k1 = self.slope(t, &state.nu, sines, &force);
+        let k1 = self.slope((t, t), &state.nu, sines, &force);
         let k2 = self.slope_after(t, half, state, &k1, &force);
         let k3 = self.slope_after(t, half, state, &k2, &force);
         let k4 = self.slope_after(t, h, state, &k3, &force);
@@ -111,12 +111,12 @@ impl Plant {
     }
 
     #[inline]
-    fn slope(&self, t: f64, nu: &Velocity<f64, 3>, sines: &Sines, force: &Force<f64, 3>) -> Slope {
+    fn slope(&self, times: (f64, f64), nu: &Velocity<f64, 3>, sines: &Sines, force: &Force<f64, 3>) -> Slope {
         let inertia = self.robot.inertia(&sines.posture);
         let a = if self.disturbances.is_none() {
             self.robot.acceleration(&inertia, nu, force)
         } else {
-            self.robot.acceleration(&inertia, nu, &force.plus(self.external(t, sines)))
+            self.robot.acceleration(&inertia, nu, &force.plus(self.disturbances.force(times, &self.robot, sines)))
         };
         Slope { x: nu.forward * sines.heading.cos, y: nu.forward * sines.heading.sin, nu: *nu, a }
     }
@@ -132,6 +132,6 @@ impl Plant {
             heading: Angle::of(state.q.heading + dt * k.nu.yaw_rate),
             posture: self.robot.posture(&joints),
         };
-        self.slope(t + dt, &state.nu.zip(k.a, |nu, a| nu + dt * a), &sines, force)
+        self.slope((t, t + dt), &state.nu.zip(k.a, |nu, a| nu + dt * a), &sines, force)
     }
 }
