@@ -89,7 +89,12 @@ pub(super) fn centroid<T: Real>(sets: &mut [ClippedSet<T>], half: T) -> Option<T
 /// Area and first moment of the maximum of `sets` over `[0, last]`.
 fn sweep<T: Real>(sets: &[ClippedSet<T>], last: T) -> (T, T) {
     let (mut area, mut six_moments) = (T::ZERO, T::ZERO);
-    let mut t = T::ZERO;
+    // Before the first foot and after the last one there is nothing to add.
+    let (first, last) = sets.iter().fold((last, T::ZERO), |(first, end), set| {
+        let [foot, .., far_foot] = set.corners;
+        (first.min(foot), end.max(far_foot.min(last)))
+    });
+    let mut t = first.max(T::ZERO);
     let most_pieces = (4 * sets.len() + 1) * sets.len();
     for _ in 0..most_pieces {
         let Some((top, next)) = piece_after(sets, t, last) else { break };
@@ -110,12 +115,17 @@ fn piece_after<T: Real>(sets: &[ClippedSet<T>], t: T, last: T) -> Option<(Line<T
     }
     let mut top = Line { value: T::ZERO, slope: T::ZERO, end: last };
     let mut stop = last;
+    let mut steepest = T::ZERO;
     for set in sets {
         let line = set.line_after(t, last);
         stop = stop.min(line.end);
+        steepest = steepest.max(line.slope);
         if line.value > top.value || (line.value >= top.value && line.slope > top.slope) {
             top = line;
         }
+    }
+    if top.slope >= steepest {
+        return Some((top, stop));
     }
     // Each pass that starts again has moved to a steeper line, so there are at most as many as sets.
     'passes: for _ in sets {

@@ -1,9 +1,11 @@
 //! Fuzzy inference: Mamdani rule tables, their exact centroid, and a lookup table of the result.
 //!
 //! ```text
-//! MamdaniTables  --try_new-->  Mamdani  --from_engine-->  Surface
-//! (const arrays,  (checked,    min - max - exact         (uniform knots,
-//!  in flash)       borrowed)   centroid, ~1000 instr.)    ~20 instr.)
+//! MamdaniTables --try_new--> Mamdani --from_engine--> Surface
+//! (const arrays              (min, max and            (uniform knots,
+//! in flash)                  exact centroid,          about 35
+//!                            about 1,300              instructions)
+//!                            instructions)
 //! ```
 //!
 //! | item | role |
