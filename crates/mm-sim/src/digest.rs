@@ -28,19 +28,28 @@ impl Digest {
 
     /// Adds one control tick.
     #[inline]
-    pub fn add(
-        &mut self,
-        t: f64,
-        q: &Configuration<f64, 3>,
-        nu: &Velocity<f64, 3>,
-        torque: &Torque<f64, 3>,
-    ) {
+    pub fn add(&mut self, t: f64, q: &Configuration<f64, 3>, nu: &Velocity<f64, 3>, torque: &Torque<f64, 3>) {
         let [q1, q2, q3] = q.joints;
         let [d1, d2, d3] = nu.joints;
         let [t1, t2, t3] = torque.joints;
         let numbers = [
-            t, q.x, q.y, q.heading, q1, q2, q3, nu.forward, nu.yaw_rate, d1, d2, d3, torque.right, torque.left,
-            t1, t2, t3,
+            t,
+            q.x,
+            q.y,
+            q.heading,
+            q1,
+            q2,
+            q3,
+            nu.forward,
+            nu.yaw_rate,
+            d1,
+            d2,
+            d3,
+            torque.right,
+            torque.left,
+            t1,
+            t2,
+            t3,
         ];
         let mut bytes = [0_u8; 17 * 8];
         for (slot, number) in bytes.chunks_exact_mut(8).zip(numbers) {

@@ -264,7 +264,8 @@ fn check_heights(
                 Motion::Hold { .. } => "trajectory.point_m",
                 _ => "trajectory.kind",
             };
-            let message = format!("at t = {t:.3} s the tip should be {height:.4} m high, which no posture reaches");
+            let message =
+                format!("at t = {t:.3} s the tip should be {height:.4} m high, which no posture reaches");
             let expected = format!("a height from {low:.4} to {high:.4} m, or `allow_unreachable = true`");
             return Err(loaded.problem(key, message, expected));
         }

@@ -3,8 +3,8 @@
 //! The configuration is integrated by Runge-Kutta from the imposed quasi-velocities and compared with the motion that they make
 //! exactly: straight lines and circles of the base (radius v/omega), joints that ramp.
 
-use mm_model::{Angle, Configuration, Mechanism, Real, Robot, Velocity};
 use mm_control::Reference;
+use mm_model::{Angle, Configuration, Mechanism, Real, Robot, Velocity};
 
 use crate::digest::Digest;
 use crate::metrics::{Accumulator, Tick};
@@ -199,7 +199,6 @@ impl Imposed {
         }
     }
 }
-
 
 #[cfg(test)]
 mod tests {

@@ -6,6 +6,7 @@
 //! The controller in the loop is [`mm_control::ControlStack`], the very code that firmware links; the plant is the same model with its own
 //! parameters, integrated by Runge-Kutta.
 
+pub mod cli;
 pub mod digest;
 pub mod disturbance;
 pub mod experiment;
@@ -16,6 +17,7 @@ pub mod plant;
 pub mod random;
 pub mod scenario;
 pub mod simulation;
+pub mod summary;
 pub mod trajectory;
 
 /// Version of the stack.

@@ -1,2 +1,7 @@
-//! The mmsim command.
-fn main() {}
+//! The `mmsim` command.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(mm_sim::cli::main_with(std::env::args_os()) as u8)
+}

@@ -116,7 +116,11 @@ impl Plant {
         let a = if self.disturbances.is_none() {
             self.robot.acceleration(&inertia, nu, force)
         } else {
-            self.robot.acceleration(&inertia, nu, &force.plus(self.disturbances.force(times, &self.robot, sines)))
+            self.robot.acceleration(
+                &inertia,
+                nu,
+                &force.plus(self.disturbances.force(times, &self.robot, sines)),
+            )
         };
         Slope { x: nu.forward * sines.heading.cos, y: nu.forward * sines.heading.sin, nu: *nu, a }
     }

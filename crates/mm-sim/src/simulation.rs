@@ -141,6 +141,17 @@ pub struct RunResult {
     pub last: PlantState,
 }
 
+impl RunResult {
+    /// Time simulated, s: the whole duration, or up to where the run ended.
+    #[must_use]
+    pub fn simulated_s(&self, clock: &Clock) -> f64 {
+        match self.ending {
+            Ending::Finished => clock.duration(),
+            Ending::Stopped { t } | Ending::Diverged { t, .. } | Ending::Refused { t, .. } => t,
+        }
+    }
+}
+
 impl Simulation {
     /// Runs the closed loop.
     ///
@@ -219,13 +230,7 @@ impl<'a> Run<'a> {
     }
 
     #[inline]
-    fn measure(
-        &mut self,
-        t: f64,
-        error: Vector3<f64>,
-        output: &Output<f64, 3>,
-        manipulability_squared: f64,
-    ) {
+    fn measure(&mut self, t: f64, error: Vector3<f64>, output: &Output<f64, 3>, manipulability_squared: f64) {
         let PlantState { q, nu, .. } = &self.state;
         let robot = self.simulation.plant.robot();
         let wheels = robot.wheel_rates(nu.forward, nu.yaw_rate);
@@ -315,7 +320,13 @@ pub(crate) fn runaway(error: &Vector3<f64>, nu: &Velocity<f64, 3>) -> Option<(&'
     if squared <= 100.0 && !nu.channels().any(fast) {
         return None;
     }
-    let names = ["forward speed (m/s)", "yaw rate (rad/s)", "rate of joint 1 (rad/s)", "rate of joint 2 (rad/s)", "rate of joint 3 (rad/s)"];
+    let names = [
+        "forward speed (m/s)",
+        "yaw rate (rad/s)",
+        "rate of joint 1 (rad/s)",
+        "rate of joint 2 (rad/s)",
+        "rate of joint 3 (rad/s)",
+    ];
     let velocity = names.into_iter().zip(nu.channels()).find(|(_, value)| fast(*value));
     Some(velocity.unwrap_or(("distance of the tip from its reference (m)", mm_model::Real::sqrt(squared))))
 }

@@ -58,7 +58,6 @@ impl LawKind {
 
 /// One of the laws, with its gains.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "one law exists a stack, and there is no heap to box it on")]
 pub enum Law<T, const N: usize> {
     /// See [`Bsmc`].
     Bsmc(Bsmc<T, N>),

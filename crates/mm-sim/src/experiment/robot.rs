@@ -52,7 +52,8 @@ fn demand_complete(loaded: &Loaded) -> Result<(), ScenarioError> {
         ("track_width_m", f.track_width_m.is_none()),
     ]
     .into_iter()
-    .filter_map(|(name, lacks)| lacks.then(|| name.to_owned()))
+    .filter(|(_, lacks)| *lacks)
+    .map(|(name, _)| name.to_owned())
     .collect();
     for number in 0..3 {
         match f.link.get(number) {
@@ -65,7 +66,8 @@ fn demand_complete(loaded: &Loaded) -> Result<(), ScenarioError> {
                     ("inertia_kg_m2", link.inertia_kg_m2.is_none()),
                 ]
                 .into_iter()
-                .filter_map(|(name, lacks)| lacks.then(|| format!("link.{number}.{name}"))),
+                .filter(|(_, lacks)| *lacks)
+                .map(|(name, _)| format!("link.{number}.{name}")),
             ),
         }
     }
@@ -81,10 +83,7 @@ fn demand_complete(loaded: &Loaded) -> Result<(), ScenarioError> {
 }
 
 /// The robot of checked parameters.
-pub(super) fn checked(
-    loaded: &Loaded,
-    params: RobotParams<f64, 3>,
-) -> Result<Robot<f64, 3>, ScenarioError> {
+pub(super) fn checked(loaded: &Loaded, params: RobotParams<f64, 3>) -> Result<Robot<f64, 3>, ScenarioError> {
     Robot::try_new(params).map_err(|error: ParamError| {
         let name = error.parameter();
         let key = if ["inertia_kg_m2", "joint_limit_rad", "com_m", "length_m", "mass_kg"].contains(&name) {
@@ -92,7 +91,11 @@ pub(super) fn checked(
         } else {
             format!("robot.{name}")
         };
-        loaded.problem(&key, format!("`{name}` cannot be so"), format!("a value that must {}", error.expectation()))
+        loaded.problem(
+            &key,
+            format!("`{name}` cannot be so"),
+            format!("a value that must {}", error.expectation()),
+        )
     })
 }
 

@@ -1,0 +1,169 @@
+//! The command line: `mmsim`.
+
+mod compare;
+mod interrupt;
+mod recorder;
+mod run;
+mod scenario;
+mod table;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, Parser, Subcommand};
+
+/// Exit codes of the command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Exit {
+    /// Done.
+    Done = 0,
+    /// The run failed: it diverged, was interrupted, or could not be written.
+    Failed = 1,
+    /// Bad usage or bad input.
+    Usage = 2,
+    /// Finished, but the scenario's [expect] was missed.
+    Missed = 3,
+}
+
+/// Simulate robust trajectory tracking of a mobile manipulator.
+#[derive(Debug, Parser)]
+#[command(name = "mmsim", version, args_conflicts_with_subcommands = true, max_term_width = 110)]
+#[command(after_help = "Examples:\n  \
+    mmsim --scenario square.toml\n  \
+    mmsim --scenario square --controller bsmc --set plant.mass_scale=1.25 --json\n  \
+    mmsim compare --scenario square-compare --controllers bsmc,bsmc-sat,bfsmc-thesis,bfsmc\n\n\
+    Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed")]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    run: RunArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run one scenario (what `mmsim --scenario` does too).
+    Run(RunArgs),
+    /// Run one scenario with several controllers and compare them in one table.
+    Compare(CompareArgs),
+    /// List, show and check scenario files, or print their JSON schema.
+    #[command(subcommand)]
+    Scenario(ScenarioCommand),
+}
+
+/// What `run` and `compare` share.
+#[derive(Debug, Clone, Args)]
+struct Common {
+    /// A scenario file, or the name of a bundled scenario.
+    #[arg(long, value_name = "FILE|NAME")]
+    scenario: Option<String>,
+    /// Set a key of the scenario, by its dotted path; repeatable.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Seed of everything random in the scenario.
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Folder for the log.
+    #[arg(long, value_name = "DIR", default_value = "./out")]
+    out: PathBuf,
+    /// Write no log.
+    #[arg(long)]
+    no_log: bool,
+    /// Print the summary as JSON on standard output, and nothing else there.
+    #[arg(long)]
+    json: bool,
+    /// No progress, no table.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(Debug, Clone, Args)]
+struct RunArgs {
+    #[command(flatten)]
+    common: Common,
+    /// Controller to use instead of the scenario's.
+    #[arg(long, value_name = "KIND")]
+    controller: Option<String>,
+}
+
+#[derive(Debug, Clone, Args)]
+struct CompareArgs {
+    #[command(flatten)]
+    common: Common,
+    /// Controllers to compare, separated by commas.
+    #[arg(long, value_name = "KIND,...", value_delimiter = ',', required = true)]
+    controllers: Vec<String>,
+}
+
+#[derive(Debug, Subcommand)]
+enum ScenarioCommand {
+    /// List the bundled scenarios.
+    List,
+    /// Print a bundled scenario.
+    Show {
+        /// Its name.
+        name: String,
+    },
+    /// Check a scenario file without running it.
+    Check {
+        /// The file, or the name of a bundled scenario.
+        file: String,
+    },
+    /// Print the JSON schema of scenario files.
+    Schema,
+}
+
+impl Common {
+    /// The scenario's name; without one, a usage error.
+    fn scenario(&self) -> Result<&str, clap::Error> {
+        self.scenario.as_deref().ok_or_else(|| {
+            Cli::command().error(
+                ErrorKind::MissingRequiredArgument,
+                "name a scenario: --scenario FILE, or the name of a bundled one (`mmsim scenario list`)",
+            )
+        })
+    }
+
+    /// The edits of the scenario that the options stand for.
+    fn sets(&self, controller: Option<&str>) -> Vec<String> {
+        let mut sets = self.set.clone();
+        sets.extend(controller.map(|kind| format!("controller.kind=\"{kind}\"")));
+        sets.extend(self.seed.map(|seed| format!("simulation.seed={seed}")));
+        sets
+    }
+}
+
+/// Runs the command with the given arguments, the first being its name, and says how to exit.
+///
+/// Results go to standard output, everything else to standard error.
+pub fn main_with<I, A>(args: I) -> Exit
+where
+    I: IntoIterator<Item = A>,
+    A: Into<OsString> + Clone,
+{
+    let outcome = Cli::try_parse_from(args).and_then(|cli| match cli.command {
+        None => run::run(&cli.run),
+        Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Compare(args)) => compare::compare(&args),
+        Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
+    });
+    outcome.unwrap_or_else(|error| {
+        let _ = error.print();
+        // `--help` and `--version` come this way too, and are no mistake.
+        if error.use_stderr() { Exit::Usage } else { Exit::Done }
+    })
+}
+
+/// Writes a result to standard output; a reader that has gone away is no error.
+fn print(text: &str) {
+    use std::io::Write as _;
+    let _ = writeln!(std::io::stdout().lock(), "{text}");
+}
+
+/// Writes a message to standard error.
+fn complain(text: &dyn core::fmt::Display) {
+    use std::io::Write as _;
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}

@@ -1,0 +1,100 @@
+//! `mmsim compare`: one scenario, several controllers, one table.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use super::run::{execute, log_path, prepare};
+use super::{CompareArgs, Exit, complain, print, table};
+use crate::experiment::Experiment;
+use crate::metrics::PerAxisSum;
+use crate::scenario::Loaded;
+use crate::summary::Summary;
+
+/// The `--json` object of a comparison.
+#[derive(Debug, Serialize)]
+struct Comparison<'a> {
+    runs: &'a [Summary],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    improvement_percent: Option<PerAxisSum>,
+}
+
+/// Runs the scenario with each controller, on as many cores as there are.
+pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
+    let common = &args.common;
+    let spec = common.scenario()?;
+    let mut prepared = Vec::new();
+    for kind in &args.controllers {
+        match prepare(spec, &common.sets(Some(kind.trim()))) {
+            Ok(ready) => prepared.push(ready),
+            Err(exit) => return Ok(exit),
+        }
+    }
+    let jobs: Vec<(&(Loaded, Experiment), Option<PathBuf>)> = prepared
+        .iter()
+        .zip(&args.controllers)
+        .map(|(ready, kind)| {
+            let name = format!("{}.{}", ready.0.name(), kind.trim());
+            (ready, (!common.no_log).then(|| log_path(&common.out, &name)))
+        })
+        .collect();
+    let mut runs = Vec::new();
+    let mut exit = Exit::Done;
+    for outcome in in_parallel(&jobs) {
+        match outcome {
+            Ok((summary, ended)) => {
+                exit = exit.max(ended);
+                runs.push(summary);
+            }
+            Err(failed) => exit = exit.max(failed),
+        }
+    }
+    let improvement_percent = improvement(&runs);
+    if common.json {
+        let comparison = Comparison { runs: &runs, improvement_percent };
+        print(&serde_json::to_string(&comparison).unwrap_or_default());
+    } else if !common.quiet {
+        print(&table::comparison(&runs, improvement_percent));
+    }
+    for run in &runs {
+        for warning in &run.warnings {
+            complain(&format_args!("warning: {}: {warning}", run.controller));
+        }
+    }
+    Ok(exit)
+}
+
+type Outcome = Result<(Summary, Exit), Exit>;
+
+/// The outcomes of the jobs in their order, whatever order they ran in.
+fn in_parallel(jobs: &[(&(Loaded, Experiment), Option<PathBuf>)]) -> Vec<Outcome> {
+    let workers = std::thread::available_parallelism().map_or(1, usize::from).min(jobs.len().max(1));
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let work = || {
+        let mut mine = Vec::new();
+        loop {
+            let number = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            let Some((ready, log)) = jobs.get(number) else { return mine };
+            mine.push((number, execute(ready, log.clone(), false)));
+        }
+    };
+    let mut all: Vec<(usize, Outcome)> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
+    });
+    all.sort_by_key(|(number, _)| *number);
+    all.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+/// (BSMC - BFSMC)/BSMC x 100 of the ITAE, the form behind Table 5.2; (5.8) as printed divides by BFSMC.
+fn improvement(runs: &[Summary]) -> Option<PerAxisSum> {
+    let itae = |name: &str| runs.iter().find(|run| run.controller == name).map(|run| run.metrics.itae_m_s2);
+    let (before, after) = (itae("bsmc")?, itae("bfsmc")?);
+    let percent = |b: f64, a: f64| (b - a) / b * 100.0;
+    Some(PerAxisSum {
+        x: percent(before.x, after.x),
+        y: percent(before.y, after.y),
+        z: percent(before.z, after.z),
+        sum: percent(before.sum, after.sum),
+    })
+}

@@ -1,0 +1,127 @@
+//! `mmsim run`: one scenario, one controller.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use super::recorder::RunRecorder;
+use super::{Common, Exit, RunArgs, complain, print, table};
+use crate::experiment::{Experiment, controller_name};
+use crate::log::Outcome;
+use crate::scenario::{self, Loaded};
+use crate::simulation::Ending;
+use crate::summary::{self, SCHEMA, Summary};
+
+/// Runs the scenario that the arguments name.
+pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
+    let common = &args.common;
+    let spec = common.scenario()?;
+    let sets = common.sets(args.controller.as_deref());
+    let prepared = match prepare(spec, &sets) {
+        Ok(prepared) => prepared,
+        Err(exit) => return Ok(exit),
+    };
+    let path = (!common.no_log).then(|| log_path(&common.out, prepared.0.name()));
+    let (summary, mut exit) = match execute(&prepared, path, !(common.quiet || common.json)) {
+        Ok(done) => done,
+        Err(exit) => return Ok(exit),
+    };
+    let (loaded, _) = &prepared;
+    if exit == Exit::Done && !loaded.is_modified() {
+        let missed = summary::missed(&loaded.file.expect, &summary.metrics);
+        for miss in &missed {
+            complain(&format_args!("[expect] missed: {miss}"));
+        }
+        if !missed.is_empty() {
+            exit = Exit::Missed;
+        }
+    }
+    report(common, &summary);
+    Ok(exit)
+}
+
+/// Prints the summary in the form asked for.
+fn report(common: &Common, summary: &Summary) {
+    if common.json {
+        print(&summary.to_json());
+    } else if !common.quiet {
+        print(&table::single(summary));
+    }
+    for warning in &summary.warnings {
+        complain(&format_args!("warning: {warning}"));
+    }
+}
+
+/// Loads and builds a scenario; complains of what is wrong with it.
+pub(super) fn prepare(spec: &str, sets: &[String]) -> Result<(Loaded, Experiment), Exit> {
+    let refuse = |error: scenario::ScenarioError| {
+        complain(&error);
+        Exit::Usage
+    };
+    let loaded = scenario::load(spec, sets).map_err(refuse)?;
+    let experiment = Experiment::build(&loaded).map_err(refuse)?;
+    Ok((loaded, experiment))
+}
+
+/// Path of a log in a folder.
+pub(super) fn log_path(out: &Path, name: &str) -> PathBuf {
+    out.join(format!("{name}.mcap"))
+}
+
+/// Runs a built scenario; the log, if there is one, is finished however the run ends.
+pub(super) fn execute(
+    (loaded, experiment): &(Loaded, Experiment),
+    log: Option<PathBuf>,
+    show_progress: bool,
+) -> Result<(Summary, Exit), Exit> {
+    let fail = |error: &dyn core::fmt::Display| {
+        complain(&format_args!("error: {error}"));
+        Exit::Failed
+    };
+    if let Some(folder) = log.as_deref().and_then(Path::parent) {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| fail(&format_args!("cannot make the folder {}: {error}", folder.display())))?;
+    }
+    let mut recorder =
+        RunRecorder::open(loaded, experiment, log.clone(), show_progress).map_err(|error| fail(&error))?;
+    let begin = Instant::now();
+    let ran = experiment.run(&mut recorder);
+    let wall_s = begin.elapsed().as_secs_f64();
+    recorder.clear();
+    let result = ran.map_err(|error| fail(&error))?;
+
+    let file = &loaded.file;
+    let simulated = result.simulated_s(experiment.clock());
+    let mut warnings = summary::warnings(&result, experiment.plant().robot().params().limits.speed);
+    if loaded.is_modified() {
+        let missed = summary::missed(&file.expect, &result.metrics);
+        warnings.extend(missed.into_iter().map(|miss| format!("[expect] missed: {miss}")));
+    }
+    let summary = Summary {
+        schema: SCHEMA,
+        scenario: loaded.name().to_owned(),
+        controller: controller_name(file.controller.kind),
+        duration_s: file.simulation.duration_s,
+        plant_step_s: file.simulation.plant_step_s,
+        control_period_s: file.simulation.control_period_s,
+        seed: file.simulation.seed,
+        metrics: result.metrics,
+        digest: result.digest,
+        real_time_factor: simulated / wall_s,
+        wall_s,
+        log: log.map(|path| path.display().to_string()),
+        warnings,
+    };
+    let (outcome, exit) = match result.ending {
+        Ending::Finished => (Outcome::Finished, Exit::Done),
+        Ending::Stopped { .. } => (Outcome::Interrupted, Exit::Failed),
+        Ending::Diverged { .. } | Ending::Refused { .. } => (Outcome::Diverged, Exit::Failed),
+    };
+    recorder.finish(outcome, &summary.to_json(), &summary.digest).map_err(|error| fail(&error))?;
+    if let Some(text) = summary::describe(&result.ending) {
+        complain(&format_args!("error: {}: {text}", loaded.source_name()));
+        if let Some(path) = &summary.log {
+            complain(&format_args!("the log up to there is {path}"));
+        }
+    }
+    Ok((summary, exit))
+}

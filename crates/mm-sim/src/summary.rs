@@ -1,0 +1,161 @@
+//! The summary of a run: the `--json` object, its warnings and the judgement of [expect].
+
+use serde::Serialize;
+
+use crate::metrics::Metrics;
+use crate::scenario::{Bounds, Expect};
+use crate::simulation::{Ending, RunResult};
+
+/// The `--json` summary of one run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// Name and version of this format.
+    pub schema: &'static str,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Name of the controller.
+    pub controller: &'static str,
+    /// Duration of the scenario, s.
+    pub duration_s: f64,
+    /// Integration step of the plant, s.
+    pub plant_step_s: f64,
+    /// Control period, s.
+    pub control_period_s: f64,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Metrics over the ticks simulated.
+    pub metrics: Metrics,
+    /// XXH3-128 of the trajectory.
+    pub digest: String,
+    /// Simulated seconds per second of wall time.
+    pub real_time_factor: f64,
+    /// Wall time of the run, s.
+    pub wall_s: f64,
+    /// Path of the log; none without one.
+    pub log: Option<String>,
+    /// What a reader should know besides the numbers.
+    pub warnings: Vec<String>,
+}
+
+/// Name and version of the summary's format.
+pub const SCHEMA: &str = "mmsim.summary/1";
+
+impl Summary {
+    /// The summary as one line of JSON.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+/// What is worth saying about a run besides its numbers.
+#[must_use]
+pub fn warnings(result: &RunResult, speed_limit: f64) -> Vec<String> {
+    let mut all = Vec::new();
+    let m = &result.metrics;
+    if m.max_speed_m_s > speed_limit {
+        all.push(format!(
+            "the base reached {:.3} m/s, beyond the {speed_limit} m/s up to which the model's assumptions hold",
+            m.max_speed_m_s
+        ));
+    }
+    if let Some(t) = result.joint_limit_crossed_at {
+        let times = m.joint_limit_crossings.max(1);
+        all.push(format!("a joint was outside its limits, first at t = {t:.3} s, {times} time(s) in all"));
+    }
+    if let Some(text) = describe(&result.ending) {
+        all.push(text);
+    }
+    all
+}
+
+/// How a run ended, unless it finished.
+#[must_use]
+pub fn describe(ending: &Ending) -> Option<String> {
+    match ending {
+        Ending::Finished => None,
+        Ending::Stopped { t } => Some(format!("interrupted at t = {t:.3} s")),
+        Ending::Diverged { t, state, value } => {
+            Some(format!("diverged at t = {t:.3} s: {state} was {value:.4e}"))
+        }
+        Ending::Refused { t, error } => {
+            Some(format!("the controller refused its input at t = {t:.3} s: {error}"))
+        }
+    }
+}
+
+/// The entries of [expect] that the metrics miss, in words.
+#[must_use]
+pub fn missed(expect: &Expect, m: &Metrics) -> Vec<String> {
+    let mut checks: Vec<(String, Option<Bounds>, Option<f64>)> = Vec::new();
+    let axes = [
+        ("itae_m_s2", &expect.itae_m_s2, m.itae_m_s2),
+        ("iae_m_s", &expect.iae_m_s, m.iae_m_s),
+        ("ise_m2_s", &expect.ise_m2_s, m.ise_m2_s),
+    ];
+    let mut add = |key: String, bounds: Option<Bounds>, value: Option<f64>| checks.push((key, bounds, value));
+    for (key, bounds, value) in axes {
+        add(format!("{key}.x"), bounds.x, Some(value.x));
+        add(format!("{key}.y"), bounds.y, Some(value.y));
+        add(format!("{key}.z"), bounds.z, Some(value.z));
+        add(format!("{key}.sum"), bounds.sum, Some(value.sum));
+    }
+    add("rmse_m.x".into(), expect.rmse_m.x, Some(m.rmse_m.x));
+    add("rmse_m.y".into(), expect.rmse_m.y, Some(m.rmse_m.y));
+    add("rmse_m.z".into(), expect.rmse_m.z, Some(m.rmse_m.z));
+    add("rmse_m.norm".into(), expect.rmse_m.norm, Some(m.rmse_m.norm));
+    let (tv, peak) = (&m.torque_tv_n_m_per_s, &m.peak_torque_n_m);
+    add("torque_tv_n_m_per_s.right".into(), expect.torque_tv_n_m_per_s.right, Some(tv.right));
+    add("torque_tv_n_m_per_s.left".into(), expect.torque_tv_n_m_per_s.left, Some(tv.left));
+    add("torque_tv_n_m_per_s.sum".into(), expect.torque_tv_n_m_per_s.sum, Some(tv.sum));
+    add("peak_torque_n_m.right".into(), expect.peak_torque_n_m.right, Some(peak.right));
+    add("peak_torque_n_m.left".into(), expect.peak_torque_n_m.left, Some(peak.left));
+    let lists = [
+        ("torque_tv_n_m_per_s.joints", &expect.torque_tv_n_m_per_s.joints, tv.joints.as_slice()),
+        ("peak_torque_n_m.joints", &expect.peak_torque_n_m.joints, peak.joints.as_slice()),
+        ("sliding_band", &expect.sliding_band, m.sliding_band.as_slice()),
+    ];
+    for (key, bounds, values) in lists {
+        for (i, (bounds, value)) in bounds.iter().zip(values).enumerate() {
+            add(format!("{key}.{i}"), Some(*bounds), Some(*value));
+        }
+    }
+    add("max_error_m".into(), expect.max_error_m, Some(m.max_error_m));
+    add("settling_time_s".into(), expect.settling_time_s, m.settling_time_s);
+    add("effort_n2_m2_s".into(), expect.effort_n2_m2_s, Some(m.effort_n2_m2_s));
+    add("energy_j".into(), expect.energy_j, Some(m.energy_j));
+    add("saturated_fraction".into(), expect.saturated_fraction, Some(m.saturated_fraction));
+    add("max_speed_m_s".into(), expect.max_speed_m_s, Some(m.max_speed_m_s));
+    add("min_manipulability".into(), expect.min_manipulability, Some(m.min_manipulability));
+    #[expect(clippy::cast_precision_loss, reason = "a count of crossings is far below 2^53")]
+    let crossings = m.joint_limit_crossings as f64;
+    add("joint_limit_crossings".into(), expect.joint_limit_crossings, Some(crossings));
+    let mut misses: Vec<String> =
+        checks.into_iter().filter_map(|(key, bounds, value)| miss(&key, bounds?, value)).collect();
+    if let Some(wanted) = expect.reaching_condition_met
+        && m.reaching_condition_met != Some(wanted)
+    {
+        let got = m.reaching_condition_met.map_or("not defined".to_owned(), |met| met.to_string());
+        misses.push(format!("reaching_condition_met is {got}, expected {wanted}"));
+    }
+    misses
+}
+
+/// How a value misses its bounds, if it does; an undefined value misses any bound.
+fn miss(key: &str, bounds: Bounds, value: Option<f64>) -> Option<String> {
+    let Some(value) = value else {
+        return Some(format!("{key} is not defined, expected {}", in_words(bounds)));
+    };
+    let above = bounds.min.is_none_or(|min| value >= min);
+    let below = bounds.max.is_none_or(|max| value <= max);
+    (!(above && below)).then(|| format!("{key} is {value}, expected {}", in_words(bounds)))
+}
+
+fn in_words(bounds: Bounds) -> String {
+    match (bounds.min, bounds.max) {
+        (Some(min), Some(max)) => format!("from {min} to {max}"),
+        (Some(min), None) => format!("at least {min}"),
+        (None, Some(max)) => format!("at most {max}"),
+        (None, None) => "a value".to_owned(),
+    }
+}
