@@ -83,9 +83,9 @@ impl Plant {
         let (h, half) = (self.step, 0.5 * self.step);
         let force = self.robot.force_of(torque);
         let k1 = self.slope((t, t), &state.nu, sines, &force);
-        let k2 = self.slope_after(t, half, state, &k1, &force);
-        let k3 = self.slope_after(t, half, state, &k2, &force);
-        let k4 = self.slope_after(t, h, state, &k3, &force);
+        let k2 = self.slope_after(t, half, (state, sines), &k1, &force);
+        let k3 = self.slope_after(t, half, (state, sines), &k2, &force);
+        let k4 = self.slope_after(t, h, (state, sines), &k3, &force);
         let sixth = h / 6.0;
         let mean = |a: f64, b: f64, c: f64, d: f64| sixth * (a + 2.0 * (b + c) + d);
         let mean_of = |f: fn(&Slope) -> Velocity<f64, 3>| {
@@ -125,16 +125,20 @@ impl Plant {
         Slope { x: nu.forward * sines.heading.cos, y: nu.forward * sines.heading.sin, nu: *nu, a }
     }
 
-    /// The slope where the slope `k` leads in `dt`. Nothing depends on x and y, so that they stay where they are.
+    /// The slope where the slope `k` leads in `dt`. Nothing depends on x and y, so that they stay where they are; the angles
+    /// turn by little, so that their sines follow from those of the state.
     #[inline]
-    fn slope_after(&self, t: f64, dt: f64, state: &PlantState, k: &Slope, force: &Force<f64, 3>) -> Slope {
-        let mut joints = state.q.joints;
-        for (joint, rate) in joints.iter_mut().zip(k.nu.joints) {
-            *joint += dt * rate;
-        }
+    fn slope_after(
+        &self,
+        t: f64,
+        dt: f64,
+        (state, sines): (&PlantState, &Sines),
+        k: &Slope,
+        force: &Force<f64, 3>,
+    ) -> Slope {
         let sines = Sines {
-            heading: Angle::of(state.q.heading + dt * k.nu.yaw_rate),
-            posture: self.robot.posture(&joints),
+            heading: sines.heading.turned_by(dt * k.nu.yaw_rate),
+            posture: sines.posture.turned_by(k.nu.joints.map(|rate| dt * rate)),
         };
         self.slope((t, t + dt), &state.nu.zip(k.a, |nu, a| nu + dt * a), &sines, force)
     }

@@ -38,6 +38,18 @@ impl<T: Real> ArmPosture<T> {
         Self { yaw: Angle::of(q1), shoulder: Angle::of(q2), forearm: Angle::of(q2 + q3) }
     }
 
+    /// Sines and cosines after the joints have turned on by small angles; see [`Angle::turned_by`].
+    #[must_use]
+    #[inline]
+    pub fn turned_by(&self, joints: [T; 3]) -> Self {
+        let [d1, d2, d3] = joints;
+        Self {
+            yaw: self.yaw.turned_by(d1),
+            shoulder: self.shoulder.turned_by(d2),
+            forearm: self.forearm.turned_by(d2 + d3),
+        }
+    }
+
     #[inline]
     pub(super) fn reach(&self, params: &RobotParams<T, 3>) -> Reach<T> {
         let [_, link2, link3] = &params.links;
