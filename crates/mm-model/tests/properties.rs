@@ -6,7 +6,7 @@
 //! References: nalgebra's Cholesky and eigenvalues; central differences of M and of the energy (`tests/twins.rs` has the
 //! exact dM/dt).
 //! Tolerance: 1e-13 relative to the norm of the terms that are summed; where M is solved the residual is held to it, not the
-//! solution, since these M have condition numbers up to 5e4; 1e-11 for differences (see `common/differences.rs`).
+//! solution, since these M have condition numbers up to 1.2e5; 1e-11 for differences (see `common/differences.rs`).
 
 mod common {
     pub(crate) mod coriolis;

@@ -20,6 +20,7 @@ use common::worst::Worst;
 use common::{coriolis, mass};
 use mm_model::{
     Configuration, Force, Friction, Limits, Link, Mechanism, Real, Robot, RobotParams, Torque, Velocity,
+    reference,
 };
 use nalgebra::{SVector, Vector3};
 
@@ -129,6 +130,27 @@ fn dynamics_in_single_precision() {
         forward.see(case, &(m * a), &(m * b), scale + push + m.norm() * b.norm());
     }
     for worst in [mass, coriolis, reaching, transpose, gravity, bias, forward] {
+        worst.within(TOLERANCE);
+    }
+}
+
+#[test]
+fn the_literal_form_in_single_precision() {
+    let mut draw = Random::seeded(13);
+    let [mut mass, mut coriolis, mut gravity, mut input] =
+        ["f32 S'MS", "f32 S'(M dS + C S)", "f32 S'G", "f32 S'E"].map(Worst::of);
+    for case in 0..CASES {
+        let Pair { small: (robot, q, nu, _), large: (exact, q64, nu64, _) } = pair(&mut draw, case);
+        let (got, expected) = (reference::reduce(&robot, &q, &nu), reference::reduce(&exact, &q64, &nu64));
+        mass.see(case, &got.mass.map(f64::from), &expected.mass, expected.mass.norm());
+        let size = expected.mass.norm() * of_velocity(&nu64).norm();
+        coriolis.see(case, &got.coriolis.map(f64::from), &expected.coriolis, size);
+        let p = exact.params();
+        let weight = p.gravity * p.links.iter().fold(0.0, |sum, link| sum + link.mass);
+        gravity.see(case, &wide(&got.gravity), &expected.gravity, weight);
+        input.see(case, &got.input.map(f64::from), &expected.input, expected.input.norm());
+    }
+    for worst in [mass, coriolis, gravity, input] {
         worst.within(TOLERANCE);
     }
 }
