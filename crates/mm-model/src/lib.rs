@@ -17,8 +17,8 @@
 //! ```
 //!
 //! Everything is generic over the scalar ([`Real`]: `f32` and `f64`) and the number of joints; the arm with yaw, pitch and
-//! pitch (N = 3) and the base alone (N = 0) are there in closed form. [`reference`](mod@reference) holds the literal, slow form of the
-//! thesis, against which the closed form is tested.
+//! pitch (N = 3) and the base alone (N = 0) are there in closed form. [`reference`](mod@reference) holds the literal, slow
+//! form of the thesis, against which the closed form is tested.
 //!
 //! # Conventions
 //! SI units and radians. World frame with z upwards; counter-clockwise is positive; heading 0 looks along x. Positive q2 and
@@ -65,3 +65,8 @@ pub use platform::WheelRates;
 pub use real::Real;
 pub use robot::Robot;
 pub use tip::TipJacobian;
+
+/// Compiles the example in the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -6,16 +6,21 @@
 //! that their difference takes, since M itself has condition numbers up to 5e4, which `f32` cannot make up for.
 
 mod common {
-    pub(crate) mod dense;
+    pub(crate) mod coriolis;
+    pub(crate) mod mass;
+    pub(crate) mod motion;
     pub(crate) mod random;
+    pub(crate) mod vectors;
     pub(crate) mod worst;
 }
 
-use common::dense::{self, Vector};
 use common::random::{self, Random};
+use common::vectors::{Vector, of_force, of_velocity};
 use common::worst::Worst;
+use common::{coriolis, mass};
 use mm_model::{
     Configuration, Force, Friction, Limits, Link, Mechanism, Real, Robot, RobotParams, Torque, Velocity,
+    reference,
 };
 use nalgebra::{SVector, Vector3};
 
@@ -99,11 +104,11 @@ fn dynamics_in_single_precision() {
         let Pair { small: (robot, q, nu, nu_r), large: (exact, q64, nu64, nu_r64) } = pair(&mut draw, case);
         let (inertia, inertia64) =
             (robot.inertia(&robot.posture(&q.joints)), exact.inertia(&exact.posture(&q64.joints)));
-        let (u, u_r) = (dense::of_velocity(&nu64), dense::of_velocity(&nu_r64));
-        let m = dense::of_mass(&exact.mass_matrix(&inertia64));
-        mass.see(case, &dense::of_mass(&robot.mass_matrix(&inertia)), &m, m.norm());
-        let c = dense::coriolis(&exact, &q64, &nu64);
-        let of = |force: Force<f32, 3>| dense::of_force(&force);
+        let (u, u_r) = (of_velocity(&nu64), of_velocity(&nu_r64));
+        let m = mass::dense(&exact.mass_matrix(&inertia64));
+        mass.see(case, &mass::dense(&robot.mass_matrix(&inertia)), &m, m.norm());
+        let c = coriolis::matrix(&exact, &q64, &nu64);
+        let of = |force: Force<f32, 3>| of_force(&force);
         let turning = c.norm() * u.norm();
         coriolis.see(case, &of(robot.coriolis_product(&inertia, &nu, &nu)), &(c * u), turning);
         let product = of(robot.coriolis_product(&inertia, &nu, &nu_r));
@@ -112,19 +117,40 @@ fn dynamics_in_single_precision() {
         transpose.see(case, &product, &(c.transpose() * u), turning);
         let p = exact.params();
         let weight = p.gravity * p.links.iter().fold(0.0, |sum, link| sum + link.mass);
-        gravity.see(case, &of(robot.gravity(&inertia)), &dense::of_force(&exact.gravity(&inertia64)), weight);
-        let drag = dense::of_force(&exact.friction(&nu64)).norm();
+        gravity.see(case, &of(robot.gravity(&inertia)), &of_force(&exact.gravity(&inertia64)), weight);
+        let drag = of_force(&exact.friction(&nu64)).norm();
         let scale = turning + weight + drag;
-        let h = dense::of_force(&exact.bias(&inertia64, &nu64));
+        let h = of_force(&exact.bias(&inertia64, &nu64));
         bias.see(case, &of(robot.bias(&inertia, &nu)), &h, scale);
         let torque = Torque { right: 20.0, left: -7.0, joints: [30.0, -40.0, 11.0] };
-        let a = dense::of_velocity(&robot.forward_dynamics(&q, &nu, &torque, &Force::zero()));
+        let a = of_velocity(&robot.forward_dynamics(&q, &nu, &torque, &Force::zero()));
         let wide = Torque::from_channels(torque.channels().map(f64::from));
-        let b = dense::of_velocity(&exact.forward_dynamics(&q64, &nu64, &wide, &Force::zero()));
-        let push = dense::of_force(&exact.force_of(&wide)).norm();
+        let b = of_velocity(&exact.forward_dynamics(&q64, &nu64, &wide, &Force::zero()));
+        let push = of_force(&exact.force_of(&wide)).norm();
         forward.see(case, &(m * a), &(m * b), scale + push + m.norm() * b.norm());
     }
     for worst in [mass, coriolis, reaching, transpose, gravity, bias, forward] {
+        worst.within(TOLERANCE);
+    }
+}
+
+#[test]
+fn the_literal_form_in_single_precision() {
+    let mut draw = Random::seeded(13);
+    let [mut mass, mut coriolis, mut gravity, mut input] =
+        ["f32 S'MS", "f32 S'(M dS + C S)", "f32 S'G", "f32 S'E"].map(Worst::of);
+    for case in 0..CASES {
+        let Pair { small: (robot, q, nu, _), large: (exact, q64, nu64, _) } = pair(&mut draw, case);
+        let (got, expected) = (reference::reduce(&robot, &q, &nu), reference::reduce(&exact, &q64, &nu64));
+        mass.see(case, &got.mass.map(f64::from), &expected.mass, expected.mass.norm());
+        let size = expected.mass.norm() * of_velocity(&nu64).norm();
+        coriolis.see(case, &got.coriolis.map(f64::from), &expected.coriolis, size);
+        let p = exact.params();
+        let weight = p.gravity * p.links.iter().fold(0.0, |sum, link| sum + link.mass);
+        gravity.see(case, &wide(&got.gravity), &expected.gravity, weight);
+        input.see(case, &got.input.map(f64::from), &expected.input, expected.input.norm());
+    }
+    for worst in [mass, coriolis, gravity, input] {
         worst.within(TOLERANCE);
     }
 }
@@ -141,7 +167,7 @@ fn kinematics_in_single_precision() {
         let j = exact.jacobian(&q64).to_matrix();
         jacobian.see(case, &robot.jacobian(&q).to_matrix().map(f64::from), &j, j.norm());
         let expected: Vector3<f64> = exact.jacobian_bias(&q64, &nu64);
-        let u: Vector = dense::of_velocity(&nu64);
+        let u: Vector = of_velocity(&nu64);
         rate.see(case, &wide(&robot.jacobian_bias(&q, &nu)), &expected, j.norm() * u.norm_squared());
         let one = |x: f64| SVector::<f64, 1>::new(x);
         let (posture, posture64) = (robot.posture(&q.joints), exact.posture(&q64.joints));

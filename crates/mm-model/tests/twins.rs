@@ -8,17 +8,21 @@
 //! acceleration itself, where M is solved, since these M have condition numbers up to 5e4.
 
 mod common {
-    pub(crate) mod dense;
+    pub(crate) mod coriolis;
     pub(crate) mod dual;
+    pub(crate) mod mass;
+    pub(crate) mod motion;
     pub(crate) mod random;
     pub(crate) mod rigid;
+    pub(crate) mod vectors;
     pub(crate) mod worst;
 }
 
-use common::dense;
 use common::random::{self, Random};
 use common::rigid::Rigid;
+use common::vectors::{of_force, of_velocity};
 use common::worst::Worst;
+use common::{coriolis, mass};
 use mm_model::{Angle, Force, Mechanism, Real, Torque, reference};
 use nalgebra::{SMatrix, SVector};
 
@@ -41,6 +45,7 @@ fn velocity_map(heading: f64, yaw_rate: f64) -> (SMatrix<f64, 6, 5>, SMatrix<f64
 fn rigid_bodies_in_space() {
     let mut draw = Random::seeded(1);
     let [mut mass, mut coriolis, mut reaching, mut gravity] = ["M", "C nu", "C nu_r", "g"].map(Worst::of);
+    let mut skew = Worst::of("dM/dt = C + C'");
     let [mut kinetic, mut potential] = ["kinetic energy", "potential energy"].map(Worst::of);
     let [mut tip, mut jacobian, mut bias] = ["tip", "J", "dJ/dt nu"].map(Worst::of);
     for case in 0..CASES {
@@ -48,21 +53,29 @@ fn rigid_bodies_in_space() {
         let (q, nu, nu_r) = (draw.configuration(), draw.velocity(), draw.velocity());
         let twin = Rigid::new(robot.params(), &q);
         let (s, s_rate) = velocity_map(q.heading, nu.yaw_rate);
-        let (u, u_r) = (dense::of_velocity(&nu), dense::of_velocity(&nu_r));
+        let (u, u_r) = (of_velocity(&nu), of_velocity(&nu_r));
         let rate = s * u;
         let inertia = robot.inertia(&robot.posture(&q.joints));
 
         let m = s.transpose() * twin.mass * s;
-        mass.see(case, &dense::of_mass(&robot.mass_matrix(&inertia)), &m, m.norm());
+        mass.see(case, &mass::dense(&robot.mass_matrix(&inertia)), &m, m.norm());
         let c = s.transpose() * (twin.mass * s_rate + twin.coriolis(&rate) * s);
         let product = robot.coriolis_product(&inertia, &nu, &nu);
-        coriolis.see(case, &dense::of_force(&product), &(c * u), c.norm() * u.norm());
+        coriolis.see(case, &of_force(&product), &(c * u), c.norm() * u.norm());
         let product = robot.coriolis_product(&inertia, &nu, &nu_r);
-        reaching.see(case, &dense::of_force(&product), &(c * u_r), c.norm() * u_r.norm());
+        reaching.see(case, &of_force(&product), &(c * u_r), c.norm() * u_r.norm());
         let g = s.transpose() * twin.gravity;
         let p = robot.params();
         let moments = p.links.iter().fold(0.0, |sum, link| sum + link.mass) * p.gravity;
-        gravity.see(case, &dense::of_force(&robot.gravity(&inertia)), &g, moments);
+        gravity.see(case, &of_force(&robot.gravity(&inertia)), &g, moments);
+
+        // d(S'MS)/dt, exact, is C + C': Property 3 with nothing differenced.
+        let of_mass =
+            twin.mass_by.iter().zip(rate.iter()).fold(SMatrix::zeros(), |sum, (by, &r)| sum + by * r);
+        let half = s.transpose() * of_mass * s * 0.5 + s.transpose() * twin.mass * s_rate;
+        let c = coriolis::matrix(&robot, &q, &nu);
+        let scale = twin.mass.norm() * u.norm();
+        skew.see(case, &(c + c.transpose()), &(half + half.transpose()), scale);
 
         let one = |x: f64| SVector::<f64, 1>::new(x);
         let energy = 0.5 * (rate.transpose() * twin.mass * rate)[0];
@@ -82,7 +95,7 @@ fn rigid_bodies_in_space() {
         let expected = (j_rate * s + twin.tip_jacobian * s_rate) * u;
         bias.see(case, &robot.jacobian_bias(&q, &nu), &expected, j.norm() * u.norm_squared());
     }
-    for worst in [mass, coriolis, reaching, gravity, kinetic, potential, tip, jacobian, bias] {
+    for worst in [mass, coriolis, reaching, gravity, skew, kinetic, potential, tip, jacobian, bias] {
         worst.within(TOLERANCE);
     }
 }
@@ -103,7 +116,7 @@ fn forward_dynamics_with_the_constraint_force() {
         let external = Force { forward: push.forward, yaw: push.yaw_rate, joints: push.joints }.scaled(20.0);
         let twin = Rigid::new(robot.params(), &q);
         let (s, s_rate) = velocity_map(q.heading, nu.yaw_rate);
-        let rate = s * dense::of_velocity(&nu);
+        let rate = s * of_velocity(&nu);
         let (sin, cos) = Real::sin_cos(q.heading);
 
         // A force F at the rim of each wheel pushes forwards and turns by its lever, half the track.
@@ -116,8 +129,8 @@ fn forward_dynamics_with_the_constraint_force() {
         }
         applied.fixed_rows_mut::<3>(3).copy_from(&SVector::from(torque.joints));
         // S (S'S)^-1 f = S f: S has orthonormal columns.
-        let friction = dense::of_force(&robot.friction(&nu));
-        applied += s * (dense::of_force(&external) - friction);
+        let friction = of_force(&robot.friction(&nu));
+        applied += s * (of_force(&external) - friction);
         let coriolis = twin.coriolis(&rate) * rate;
 
         // [ M  -A' ] [ q" ]   [ applied - C q' - G ]
@@ -131,9 +144,9 @@ fn forward_dynamics_with_the_constraint_force() {
         right[6] = (cos * rate[0] + sin * rate[1]) * rate[2];
         let solution = system.full_piv_lu().solve(&right).expect("M positive definite, A of rank 1");
         // nu' = S' (q" - dS/dt nu), again by the orthonormal columns.
-        let expected = s.transpose() * (solution.fixed_rows::<6>(0) - s_rate * dense::of_velocity(&nu));
+        let expected = s.transpose() * (solution.fixed_rows::<6>(0) - s_rate * of_velocity(&nu));
 
-        let got = dense::of_velocity(&robot.forward_dynamics(&q, &nu, &torque, &external));
+        let got = of_velocity(&robot.forward_dynamics(&q, &nu, &torque, &external));
         let m = s.transpose() * twin.mass * s;
         let forces = applied.norm() + coriolis.norm() + twin.gravity.norm();
         let scale = forces + m.norm() * expected.norm();
@@ -142,8 +155,8 @@ fn forward_dynamics_with_the_constraint_force() {
         let inertia = robot.inertia(&robot.posture(&q.joints));
         let acceleration = robot.acceleration(&inertia, &nu, &robot.force_of(&torque).plus(external));
         let force = robot.inverse_dynamics(&q, &nu, &acceleration).minus(external);
-        let applied = dense::of_force(&robot.force_of(&torque));
-        back.see(case, &dense::of_force(&force), &applied, scale);
+        let applied = of_force(&robot.force_of(&torque));
+        back.see(case, &of_force(&force), &applied, scale);
     }
     forward.within(10.0 * TOLERANCE);
     back.within(TOLERANCE);
@@ -159,20 +172,20 @@ fn the_literal_form_reduces_to_the_closed_form() {
         let (q, nu) = (draw.configuration(), draw.velocity());
         let reduced = reference::reduce(&robot, &q, &nu);
         let inertia = robot.inertia(&robot.posture(&q.joints));
-        let m = dense::of_mass(&robot.mass_matrix(&inertia));
+        let m = mass::dense(&robot.mass_matrix(&inertia));
         mass.see(case, &reduced.mass, &m, m.norm());
-        let c = dense::coriolis(&robot, &q, &nu);
+        let c = coriolis::matrix(&robot, &q, &nu);
         coriolis.see(case, &reduced.coriolis, &c, c.norm());
-        let g = dense::of_force(&robot.gravity(&inertia));
+        let g = of_force(&robot.gravity(&inertia));
         let p = robot.params();
         gravity.see(case, &reduced.gravity, &g, p.gravity * p.links.iter().fold(0.0, |sum, l| sum + l.mass));
         let columns: Vec<_> = (0..5)
             .map(|j| {
                 let unit = (0..5).map(|i| if i == j { 1.0 } else { 0.0 });
-                dense::of_force(&robot.force_of(&Torque::from_channels(unit)))
+                of_force(&robot.force_of(&Torque::from_channels(unit)))
             })
             .collect();
-        let b = dense::Matrix::from_columns(&columns);
+        let b = SMatrix::<f64, 5, 5>::from_columns(&columns);
         input.see(case, &reduced.input, &b, b.norm());
     }
     for worst in [mass, coriolis, gravity, input] {
@@ -192,7 +205,7 @@ fn the_literal_form_is_the_rigid_bodies_before_reduction() {
         let (s, s_rate) = velocity_map(q.heading, nu.yaw_rate);
         // Rates that violate the constraint, too: the 6 x 6 form is that of a base that may slide.
         let slide = SVector::<f64, 6>::from_fn(|_, _| draw.between(-1.0, 1.0));
-        let rate = s * dense::of_velocity(&nu) + slide;
+        let rate = s * of_velocity(&nu) + slide;
         mass.see(case, &reference::mass_matrix(&robot, &q), &twin.mass, twin.mass.norm());
         let c = twin.coriolis(&rate);
         coriolis.see(case, &reference::coriolis_matrix(&robot, &q, &rate), &c, c.norm());

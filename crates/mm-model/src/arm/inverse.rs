@@ -64,20 +64,25 @@ impl<T: Real> Robot<T, 3> {
         let dz = tip.z - p.mount_height - link1.length;
         let radius = (dx * dx + dy * dy).sqrt();
         let squared = radius * radius + dz * dz;
-        // A point on the edge of the reach must not be lost to rounding.
-        let slack = T::EPSILON * T::from_f64(16.0);
+        // A point on the edge of the reach must not be lost to rounding, nor one on the yaw axis: the sizes that went into
+        // (dx, dy, dz) say how well it is known.
+        let lengths = [base.x, base.y, p.arm_offset, p.mount_height, link1.length, a2, a3];
+        let size = tip.iter().chain(&lengths).fold(T::ZERO, |sum, &x| sum + x.abs());
+        let resolution = T::EPSILON * T::from_f64(8.0) * size;
+        let slack = resolution * (a2 + a3) / (a2 * a3);
         let cos3 = (squared - a2 * a2 - a3 * a3) / (T::TWO * a2 * a3);
-        if !(cos3.abs() <= T::ONE + slack) {
+        if !(cos3.abs() - slack <= T::ONE) {
             return InverseKinematics::OutOfReach {
                 distance: squared.sqrt(),
                 reach: ((a2 - a3).abs(), a2 + a3),
             };
         }
         let bend = cos3.clamp_to(-T::ONE, T::ONE).acos();
-        let yaw_is_free = !(radius > slack);
+        let yaw_is_free = !(radius > resolution);
         let yaw = if yaw_is_free { T::ZERO } else { dy.atan2(dx) };
         let branch = |facing: bool, elbow_up: bool| {
-            let (q1, rho) = if facing { (yaw, radius) } else { ((yaw + T::PI).wrap_to_pi(), -radius) };
+            let (q1, rho) =
+                if facing { (yaw.wrap_to_pi(), radius) } else { ((yaw + T::PI).wrap_to_pi(), -radius) };
             // Bending down (q3 < 0) lifts the elbow, as long as the arm reaches forwards.
             let q3 = if elbow_up == facing { -bend } else { bend };
             let (s3, c3) = q3.sin_cos();

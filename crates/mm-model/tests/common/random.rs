@@ -1,6 +1,6 @@
 //! Random robots and states from a generator of our own, so that every run draws the same ones.
 
-use mm_model::{Configuration, Friction, Limits, Link, Real, Robot, RobotParams, Velocity};
+use mm_model::{Configuration, Friction, Limits, Link, Real, Robot, RobotParams};
 
 /// The robot of parameters that must be acceptable.
 #[expect(clippy::expect_used, reason = "a test that cannot build its robot has failed")]
@@ -84,14 +84,6 @@ impl Random {
             y: self.between(-5.0, 5.0),
             heading: self.between(-7.0, 7.0),
             joints: [(); 3].map(|()| self.between(-3.5, 3.5)),
-        }
-    }
-
-    pub(crate) fn velocity(&mut self) -> Velocity<f64, 3> {
-        Velocity {
-            forward: self.between(-2.0, 2.0),
-            yaw_rate: self.between(-3.0, 3.0),
-            joints: [(); 3].map(|()| self.between(-5.0, 5.0)),
         }
     }
 }
