@@ -98,8 +98,8 @@ where
     }
 }
 
-/// Slope of the default fuzzy surface at zero, as its own tests measure it.
-const SMOOTH_SLOPE_AT_ZERO: f64 = 1.0;
+/// Slope at zero of the default fuzzy surface as `bfsmc` tabulates it, which is its steepest: that of the rules is 2.
+const SMOOTH_SLOPE_AT_ZERO: f64 = 1.7277;
 
 impl<T: Real, const N: usize> Gains<T, N> {
     /// Checks every gain.
