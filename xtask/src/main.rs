@@ -1,2 +1,126 @@
-//! Jobs of the workspace.
-fn main() {}
+//! Jobs of the workspace: `cargo xtask <job>`.
+//!
+//! Each job is a module; what they share is in [`shell`] (processes), [`parallel`] (threads) and [`table`] (output).
+
+mod ci;
+mod count;
+mod grid;
+mod mmsim;
+mod parallel;
+mod real_time;
+mod scenarios;
+mod shell;
+mod table;
+mod targets;
+
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail};
+
+const HELP: &str = "\
+cargo xtask <job>
+
+  ci                  format, lints, tests, docs, bare-metal builds, scenarios, dependencies: everything a change has to pass
+  targets             builds mm-model and mm-control for bare metal [--fallback: with Debian's compiler]
+  scenarios           runs every bundled scenario and checks its [expect] [--mmsim FILE: with this command]
+  grid                maps the gains of bsmc on square-compare into docs/grid.csv [--mmsim FILE]
+  bench-instructions  counts the instructions of each operation with callgrind [--json] [--target-cpu CPU]
+  real-time           simulated seconds per second of CPU time [--runs N]
+";
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<ExitCode> {
+    let mut arguments = Arguments::from_env();
+    let Some(job) = arguments.job.take() else {
+        print!("{HELP}");
+        return Ok(ExitCode::from(2));
+    };
+    let code = match job.as_str() {
+        "ci" => {
+            arguments.finish()?;
+            ci::run()?
+        }
+        "targets" => {
+            let fallback = arguments.flag("--fallback");
+            arguments.finish()?;
+            targets::build(fallback)?;
+            ExitCode::SUCCESS
+        }
+        "scenarios" => {
+            let command = arguments.value("--mmsim")?;
+            arguments.finish()?;
+            scenarios::run(&mmsim::Mmsim::find(command, mmsim::Profile::Release)?)?;
+            ExitCode::SUCCESS
+        }
+        "grid" => {
+            let command = arguments.value("--mmsim")?;
+            arguments.finish()?;
+            grid::run(&mmsim::Mmsim::find(command, mmsim::Profile::Release)?)?;
+            ExitCode::SUCCESS
+        }
+        "bench-instructions" => {
+            let json = arguments.flag("--json");
+            let cpu = arguments.value("--target-cpu")?;
+            arguments.finish()?;
+            count::run(json, cpu.as_deref())?
+        }
+        "real-time" => {
+            let runs = arguments.value("--runs")?;
+            arguments.finish()?;
+            real_time::run(runs.map_or(Ok(9), |runs| runs.parse()).context("--runs takes a whole number")?)?;
+            ExitCode::SUCCESS
+        }
+        "help" | "--help" | "-h" => {
+            print!("{HELP}");
+            ExitCode::SUCCESS
+        }
+        other => bail!("no job `{other}`; `cargo xtask help` lists them"),
+    };
+    Ok(code)
+}
+
+/// The command line: a job, flags and values.
+struct Arguments {
+    job: Option<String>,
+    rest: Vec<String>,
+}
+
+impl Arguments {
+    fn from_env() -> Self {
+        let mut all = std::env::args().skip(1);
+        Self { job: all.next(), rest: all.collect() }
+    }
+
+    /// Whether a flag was given; takes it.
+    fn flag(&mut self, name: &str) -> bool {
+        let before = self.rest.len();
+        self.rest.retain(|argument| argument != name);
+        self.rest.len() < before
+    }
+
+    /// The value that follows a name, if given; takes both.
+    fn value(&mut self, name: &str) -> Result<Option<String>> {
+        let Some(at) = self.rest.iter().position(|argument| argument == name) else { return Ok(None) };
+        let mut taken = self.rest.drain(at..).collect::<Vec<_>>().into_iter().skip(1);
+        let value = taken.next().with_context(|| format!("{name} needs a value"))?;
+        self.rest.extend(taken);
+        Ok(Some(value))
+    }
+
+    /// Refuses whatever nobody took.
+    fn finish(&self) -> Result<()> {
+        match self.rest.first() {
+            Some(argument) => bail!("unknown argument `{argument}`; `cargo xtask help`"),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Everything that a change has to pass, step by step; the first failure ends it.
+
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+
+use crate::mmsim::{Mmsim, Profile};
+use crate::shell::{answers, cargo, run as run_command, watch};
+use crate::{scenarios, targets};
+
+/// How a step ended, unless it failed.
+enum End {
+    Done,
+    /// It was left out, for this reason.
+    Skipped(&'static str),
+}
+
+/// Tests counted from the lines of their runners.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Tests {
+    passed: u64,
+    failed: u64,
+}
+
+/// A step: what it is called and what it does.
+type Step = (&'static str, fn(&mut Tests) -> Result<End>);
+
+const STEPS: [Step; 8] = [
+    ("format", |_| cargo_step(&["fmt", "--all", "--check"])),
+    ("clippy", |_| {
+        cargo_step(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])
+    }),
+    ("tests, dev profile", |tests| test(tests, &[])),
+    ("tests, testrelease profile", |tests| test(tests, &["--profile", "testrelease"])),
+    ("documentation", |_| {
+        let mut cargo = cargo(&["doc", "--workspace", "--no-deps", "--locked"]);
+        run_command(cargo.env("RUSTDOCFLAGS", "-D warnings"))?;
+        Ok(End::Done)
+    }),
+    ("bare metal", |_| {
+        targets::build(false)?;
+        Ok(End::Done)
+    }),
+    ("scenarios", |_| {
+        scenarios::run(&Mmsim::find(None, Profile::TestRelease)?)?;
+        Ok(End::Done)
+    }),
+    ("licences and sources of dependencies", |_| deny()),
+];
+
+/// Runs all steps; prints the totals last.
+pub(crate) fn run() -> Result<ExitCode> {
+    let start = Instant::now();
+    let mut tests = Tests::default();
+    let mut times = Vec::new();
+    let mut failure = None;
+    for (i, (name, step)) in STEPS.iter().enumerate() {
+        println!("\n== {}/{} {name}", i + 1, STEPS.len());
+        let begin = Instant::now();
+        let end = step(&mut tests);
+        let took = begin.elapsed();
+        let verdict = match &end {
+            Ok(End::Done) => "ok".to_owned(),
+            Ok(End::Skipped(why)) => format!("skipped: {why}"),
+            Err(_) => "FAILED".to_owned(),
+        };
+        println!("== {name}: {verdict} ({})", seconds(took));
+        times.push((*name, verdict, took));
+        if let Err(error) = end {
+            failure = Some((*name, error));
+            break;
+        }
+    }
+    println!();
+    for (name, verdict, took) in &times {
+        println!("{:>8}  {name}: {verdict}", seconds(*took));
+    }
+    println!("{:>8}  altogether", seconds(start.elapsed()));
+    if let Some((name, error)) = &failure {
+        println!("stopped at the step `{name}`: {error:#}");
+        // A step without tests, such as a lint, counts as one.
+        tests.failed = tests.failed.max(1);
+    }
+    println!("{} passed, {} failed", tests.passed, tests.failed);
+    Ok(if failure.is_none() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+fn cargo_step(arguments: &[&str]) -> Result<End> {
+    run_command(&mut cargo(arguments))?;
+    Ok(End::Done)
+}
+
+/// Unit, integration and documentation tests of the workspace, in one invocation.
+fn test(tests: &mut Tests, profile: &[&str]) -> Result<End> {
+    let mut cargo = cargo(&["test", "--workspace", "--locked", "--no-fail-fast"]);
+    watch(cargo.args(profile), |line| tests.add(line))?;
+    Ok(End::Done)
+}
+
+fn deny() -> Result<End> {
+    if !answers("cargo-deny", &["--version"]) {
+        return Ok(End::Skipped("cargo-deny is not installed"));
+    }
+    // The tool looks at the dependencies of all platforms and does not fetch them itself.
+    run_command(&mut cargo(&["fetch", "--locked"]))?;
+    cargo_step(&["deny", "--offline", "check", "--hide-inclusion-graph", "bans", "licenses", "sources"])
+}
+
+impl Tests {
+    /// Adds the numbers of a line such as `test result: ok. 3 passed; 0 failed; 0 ignored; ...`.
+    fn add(&mut self, line: &str) {
+        let Some(counts) = line.strip_prefix("test result: ") else { return };
+        let words: Vec<&str> = counts.split([' ', ';', '.']).filter(|word| !word.is_empty()).collect();
+        for pair in words.windows(2) {
+            if let [number, word] = pair
+                && let Ok(number) = number.parse::<u64>()
+            {
+                match *word {
+                    "passed" => self.passed += number,
+                    "failed" => self.failed += number,
+                    _ => {}
+                }
+            }
+        }
+    }
+}
+
+fn seconds(time: Duration) -> String {
+    format!("{:.1} s", time.as_secs_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Tests;
+
+    #[test]
+    fn counts_are_taken_from_the_runners_lines() {
+        let mut tests = Tests::default();
+        tests.add(
+            "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.01s",
+        );
+        tests.add("test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out; finished in 1.50s");
+        tests.add("test some::test ... ok");
+        assert_eq!(tests, Tests { passed: 15, failed: 2 }, "sums of both lines");
+    }
+}
