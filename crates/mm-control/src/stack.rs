@@ -291,7 +291,8 @@ where
 /// Lets only finite inputs through.
 #[inline]
 fn supervise<T: Real, const N: usize>(input: &Input<T, N>) -> Result<(), ControlError> {
-    let finite = |v: &Vector3<T>| v.x.is_finite() && v.y.is_finite() && v.z.is_finite();
+    // A finite number less itself is zero, any other is NaN.
+    let gap = |v: &Vector3<T>| (v.x - v.x) + (v.y - v.y) + (v.z - v.z);
     if !input.q.is_finite() {
         return Err(ControlError::NonFinite("configuration"));
     }
@@ -299,7 +300,8 @@ fn supervise<T: Real, const N: usize>(input: &Input<T, N>) -> Result<(), Control
         return Err(ControlError::NonFinite("velocity"));
     }
     let reference = &input.reference;
-    if !(finite(&reference.position) && finite(&reference.velocity) && finite(&reference.acceleration)) {
+    let gaps = gap(&reference.position) + gap(&reference.velocity) + gap(&reference.acceleration);
+    if !(gaps == T::ZERO) {
         return Err(ControlError::NonFinite("reference"));
     }
     Ok(())

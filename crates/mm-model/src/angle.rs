@@ -39,7 +39,7 @@ impl<T: Real> Angle<T> {
     /// terms are 1e-20 of what is kept; beyond it with [`Real::sin_cos`]. Integrators take small turns from a state whose sines they
     /// know: this costs about a fifth of new ones and is as exact, to one rounding.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn turned_by(self, delta: T) -> Self {
         let n = T::from_f64;
         let (sin, versed) = if delta.abs() <= n(1.0 / 64.0) {

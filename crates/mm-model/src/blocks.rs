@@ -29,11 +29,14 @@ impl<T: Real, const N: usize> Configuration<T, N> {
     #[must_use]
     #[inline]
     pub fn is_finite(&self) -> bool {
-        self.x.is_finite()
-            && self.y.is_finite()
-            && self.heading.is_finite()
-            && self.joints.iter().all(|joint| joint.is_finite())
+        all_finite([self.x, self.y, self.heading], &self.joints)
     }
+}
+
+/// Whether none of the numbers is infinite or NaN: a finite number less itself is zero, any other is NaN.
+#[inline]
+fn all_finite<T: Real, const N: usize>([a, b, c]: [T; 3], joints: &[T; N]) -> bool {
+    joints.iter().fold((a - a) + (b - b) + (c - c), |sum, &joint| sum + (joint - joint)) == T::ZERO
 }
 
 /// Defines a vector of two base channels and N joint channels with the arithmetic that the laws need.
@@ -130,7 +133,7 @@ macro_rules! block_vector {
             #[must_use]
             #[inline]
             pub fn is_finite(&self) -> bool {
-                self.$first.is_finite() && self.$second.is_finite() && self.joints.iter().all(|a| a.is_finite())
+                all_finite([self.$first, self.$second, T::ZERO], &self.joints)
             }
         }
     };

@@ -159,7 +159,7 @@ where
 
     /// Bias force h = C(q, nu) nu + g(q) + friction(nu): what holds the velocity.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn bias(&self, inertia: &<Self as Mechanism<T, N>>::Inertia, nu: &Velocity<T, N>) -> Force<T, N> {
         let h = self.coriolis_product(inertia, nu, nu).plus(self.gravity(inertia));
         if self.lumped.frictionless { h } else { h.plus(self.friction(nu)) }
@@ -184,7 +184,7 @@ where
 
     /// The acceleration under a generalized force, from terms already known: M^-1 (f - C nu - g - friction).
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn acceleration(
         &self,
         inertia: &<Self as Mechanism<T, N>>::Inertia,

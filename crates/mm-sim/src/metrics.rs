@@ -111,7 +111,9 @@ impl Accumulator {
         self.min_manipulability_squared =
             Real::min(self.min_manipulability_squared, tick.manipulability_squared);
         if tick.t >= self.band_from {
-            for (channel, s) in self.band.iter_mut().zip(tick.sliding.channels()) {
+            let [s1, s2, s3] = tick.sliding.joints;
+            let all = [tick.sliding.forward, tick.sliding.yaw_rate, s1, s2, s3];
+            for (channel, s) in self.band.iter_mut().zip(all) {
                 channel.add(s);
             }
         }

@@ -110,7 +110,7 @@ impl Plant {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn slope(&self, times: (f64, f64), nu: &Velocity<f64, 3>, sines: &Sines, force: &Force<f64, 3>) -> Slope {
         let inertia = self.robot.inertia(&sines.posture);
         let a = if self.disturbances.is_none() {
@@ -127,7 +127,7 @@ impl Plant {
 
     /// The slope where the slope `k` leads in `dt`. Nothing depends on x and y, so that they stay where they are; the angles
     /// turn by little, so that their sines follow from those of the state.
-    #[inline]
+    #[inline(always)]
     fn slope_after(
         &self,
         t: f64,

@@ -53,7 +53,7 @@ struct Exchange<T> {
 }
 
 impl<T: Real> ArmInertia<T> {
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(k: &Lumped<T>, posture: &ArmPosture<T>) -> Self {
         let ArmPosture { yaw, shoulder, forearm } = *posture;
         let elbow = forearm.minus(shoulder);
@@ -123,7 +123,7 @@ impl<T: Real> ArmInertia<T> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn coriolis_product(
         &self,
         k: &Lumped<T>,
@@ -206,7 +206,7 @@ impl<T: Real> ArmInertia<T> {
     }
 
     /// Eliminates the base, whose block is constant and diagonal, then factorizes what is left of the arm as L D L'.
-    #[inline]
+    #[inline(always)]
     pub(super) fn solve(&self, k: &Lumped<T>, force: &Force<T, 3>) -> Velocity<T, 3> {
         let Self { s1, c1, alpha, beta, beta3, .. } = *self;
         let [f1, f2, f3] = force.joints;

@@ -40,7 +40,7 @@ impl<T: Real> ArmPosture<T> {
 
     /// Sines and cosines after the joints have turned on by small angles; see [`Angle::turned_by`].
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn turned_by(&self, joints: [T; 3]) -> Self {
         let [d1, d2, d3] = joints;
         Self {
