@@ -45,7 +45,7 @@ impl From<FuzzyError> for SetupError {
 pub enum ControlError {
     /// The input named by the payload is infinite or NaN.
     NonFinite(&'static str),
-    /// The torque computed from finite inputs is infinite or NaN: the inputs are absurdly large.
+    /// The torque computed from finite inputs, or the state after it, is infinite or NaN: the inputs are absurdly large.
     Overflow,
 }
 

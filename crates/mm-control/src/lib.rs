@@ -46,3 +46,8 @@ pub use observer::{MomentumObserver, ObserverState};
 pub use outer::{OuterLoop, OuterOutput, OuterParams};
 pub use reaching::required_gain;
 pub use stack::{ControlStack, ControlState, Input, Output, Reference, Signals, StackParams, Status};
+
+/// The example of the README, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -23,6 +23,12 @@ impl<T: Real, const N: usize> ObserverState<T, N> {
     pub const fn learned(&self) -> &Force<T, N> {
         &self.learned
     }
+
+    /// Whether nothing in it is infinite or NaN.
+    #[inline]
+    pub(crate) fn is_finite(&self) -> bool {
+        self.learned.is_finite() && self.explained.is_none_or(|momentum| momentum.is_finite())
+    }
 }
 
 /// Momentum observer with projection and anti-windup.

@@ -222,8 +222,8 @@ where
     /// no allocation, no loop whose length depends on data.
     ///
     /// # Errors
-    /// An input that is not finite, or a torque that would not be; the state is then as before the call, and the caller holds a
-    /// safe command.
+    /// An input that is not finite, or a torque or a state that would not be; the state is then as before the call, and the
+    /// caller holds a safe command.
     #[inline]
     pub fn update(
         &self,
@@ -263,6 +263,9 @@ where
             learning.account(&mut observer, &robot.force_of(&torque).plus(own));
         }
         let integral = if saturated { state.integral } else { state.integral.plus(lag.scaled(self.period)) };
+        if !(integral.is_finite() && observer.is_finite()) {
+            return Err(ControlError::Overflow);
+        }
         *state = ControlState { integral, observer, held: saturated };
         Ok(Output {
             torque,
