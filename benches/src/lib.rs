@@ -2,6 +2,11 @@
 //!
 //! `cargo xtask bench-instructions` counts instructions with them, `cargo xtask real-time` and `cargo bench -p mm-benches` time them.
 
+/// The code in the README, compiled as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;
+
 use anyhow::Result;
 use mm_control::{ControlStack, Gains, Input, LawKind, OuterParams, StackParams};
 use mm_model::{Configuration, Real, Robot, RobotParams, Torque, Velocity};
