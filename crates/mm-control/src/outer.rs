@@ -5,7 +5,7 @@ mod posture_task;
 
 pub use params::OuterParams;
 
-use mm_model::{Angle, Configuration, Mechanism, Real, Robot, TipJacobian, Velocity};
+use mm_model::{Configuration, Mechanism, Real, Robot, Sines, SinesOf, TipJacobian, Velocity};
 use nalgebra::Vector3;
 
 use crate::Reference;
@@ -78,16 +78,16 @@ where
         manipulability_squared < threshold * threshold
     }
 
-    /// Evaluates the law at a configuration, with `posture` of its joints and `nu` the measured velocity.
+    /// Evaluates the law at a configuration, given with its sines, with `nu` the measured velocity.
     #[inline]
     pub fn evaluate(
         &self,
         robot: &Robot<T, N>,
-        (q, posture): (&Configuration<T, N>, &<Robot<T, N> as Mechanism<T, N>>::Posture),
+        (q, sines): (&Configuration<T, N>, &SinesOf<T, N>),
         nu: &Velocity<T, N>,
         reference: &Reference<T>,
     ) -> OuterOutput<T, N> {
-        let heading = Angle::of(q.heading);
+        let Sines { heading, ref posture } = *sines;
         let tip = robot.tip_offset(heading, posture) + Vector3::new(q.x, q.y, T::ZERO);
         let jacobian = robot.tip_jacobian(heading, posture);
         let rate = robot.tip_jacobian_rate(heading, posture, nu);

@@ -1,6 +1,6 @@
 //! The control stack: one call from measurement and reference to torques, the same for every user.
 
-use mm_model::{Configuration, Force, Mechanism, Real, Robot, Torque, Velocity, check};
+use mm_model::{Configuration, Force, Mechanism, Real, Robot, SinesOf, Torque, Velocity, check};
 use nalgebra::Vector3;
 
 use crate::laws::{Gains, Law};
@@ -231,10 +231,36 @@ where
         input: &Input<T, N>,
     ) -> Result<Output<T, N>, ControlError> {
         supervise(input)?;
+        self.control(state, input, &self.robot.sines(&input.q))
+    }
+
+    /// The same update for a caller that knows the sines of `input.q` already: the same bits.
+    ///
+    /// # Errors
+    /// As [`update`](Self::update).
+    #[inline]
+    pub fn update_with_sines(
+        &self,
+        state: &mut ControlState<T, N>,
+        input: &Input<T, N>,
+        sines: &SinesOf<T, N>,
+    ) -> Result<Output<T, N>, ControlError> {
+        supervise(input)?;
+        self.control(state, input, sines)
+    }
+
+    /// Outer loop, inner loop and limits.
+    #[inline]
+    fn control(
+        &self,
+        state: &mut ControlState<T, N>,
+        input: &Input<T, N>,
+        sines: &SinesOf<T, N>,
+    ) -> Result<Output<T, N>, ControlError> {
         let Input { q, nu, reference } = input;
         let robot = &self.robot;
-        let posture = robot.posture(&q.joints);
-        let outer = self.outer.evaluate(robot, (q, &posture), nu, reference);
+        let posture = &sines.posture;
+        let outer = self.outer.evaluate(robot, (q, sines), nu, reference);
 
         let c = self.outer.params().sliding_gain;
         let lag = nu.minus(outer.nu_c);
@@ -242,7 +268,7 @@ where
         let dnu_r = outer.dnu_c.minus(c.zip(lag, |c, e| c * e));
         let sliding = nu.minus(nu_r);
 
-        let inertia = robot.inertia(&posture);
+        let inertia = robot.inertia(posture);
         let friction = robot.friction(nu);
         let load = robot.gravity(&inertia).plus(friction);
         let equivalent =

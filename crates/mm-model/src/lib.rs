@@ -59,7 +59,7 @@ pub use arm::{ArmInertia, ArmPosture, InverseKinematics, JointSolution};
 pub use blocks::{Configuration, Force, Torque, Velocity};
 pub use error::{ParamError, check};
 pub use mass::{MassFactor, MassMatrix};
-pub use mechanism::{ManipulabilitySlope, Mechanism};
+pub use mechanism::{ManipulabilitySlope, Mechanism, Sines, SinesOf};
 pub use params::{Friction, Limits, Link, RobotParams};
 pub use platform::WheelRates;
 pub use real::Real;

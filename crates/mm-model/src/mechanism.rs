@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 use nalgebra::Vector3;
 
-use crate::{Angle, Force, MassMatrix, Real, TipJacobian, Velocity};
+use crate::{Angle, Force, MassMatrix, Real, Robot, TipJacobian, Velocity};
 
 /// A mechanism whose kinematics and equations of motion are known in closed form.
 ///
@@ -76,6 +76,20 @@ pub trait Mechanism<T: Real, const N: usize> {
     /// Gradient of det(J J') by the joint angles, and the rate of that gradient at joint rates `rates`.
     fn manipulability_slope(&self, posture: &Self::Posture, rates: &[T; N]) -> ManipulabilitySlope<T, N>;
 }
+
+/// Sines and cosines of a configuration: everything transcendental in it.
+///
+/// They depend on the angles alone, not on the robot's parameters: a simulator shares them between plant and controller.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sines<T, P> {
+    /// Of the heading.
+    pub heading: Angle<T>,
+    /// Of the joints.
+    pub posture: P,
+}
+
+/// [`Sines`] of a robot with N joints.
+pub type SinesOf<T, const N: usize> = Sines<T, <Robot<T, N> as Mechanism<T, N>>::Posture>;
 
 /// Gradient of det(J J') by the joint angles, and how it changes along a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,8 @@ use nalgebra::Vector3;
 
 use crate::params::RobotParams;
 use crate::{
-    Angle, Configuration, Force, MassMatrix, Mechanism, ParamError, Real, TipJacobian, Torque, Velocity,
+    Angle, Configuration, Force, MassMatrix, Mechanism, ParamError, Real, Sines, SinesOf, TipJacobian,
+    Torque, Velocity,
 };
 
 /// A robot with checked parameters: a differential-drive base and an arm of N joints.
@@ -125,6 +126,13 @@ where
     pub fn try_new(params: RobotParams<T, N>) -> Result<Self, ParamError> {
         params.check()?;
         Ok(Self { params, lumped: Lumped::of(&params) })
+    }
+
+    /// Sines and cosines of a configuration.
+    #[must_use]
+    #[inline]
+    pub fn sines(&self, q: &Configuration<T, N>) -> SinesOf<T, N> {
+        Sines { heading: Angle::of(q.heading), posture: self.posture(&q.joints) }
     }
 
     /// Tip in the world frame, m (3.55).

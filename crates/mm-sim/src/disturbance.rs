@@ -3,7 +3,7 @@
 use mm_model::{Force, Mechanism, Real, Robot, Torque};
 use nalgebra::Vector3;
 
-use crate::plant::Sines;
+use crate::plant::PlantSines;
 use crate::random::noise_at;
 
 /// Where a disturbance acts.
@@ -106,7 +106,7 @@ impl Disturbances {
 
     /// The generalized force at time `t` of a step that begins at `begin`: B times the torques, J' times the forces at the tip.
     #[must_use]
-    pub fn force(&self, (begin, t): (f64, f64), robot: &Robot<f64, 3>, sines: &Sines) -> Force<f64, 3> {
+    pub fn force(&self, (begin, t): (f64, f64), robot: &Robot<f64, 3>, sines: &PlantSines) -> Force<f64, 3> {
         if self.is_none() {
             return Force::zero();
         }

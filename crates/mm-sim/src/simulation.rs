@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::digest::Digest;
 use crate::metrics::{Accumulator, Metrics, Tick};
-use crate::plant::{Plant, PlantState, Sines};
+use crate::plant::{Plant, PlantSines, PlantState};
 use crate::trajectory::Trajectory;
 
 /// A closed loop with everything checked: what a scenario becomes.
@@ -213,7 +213,7 @@ impl<'a> Run<'a> {
         if let Some((state, value)) = runaway(&error, &nu) {
             return Ok(Some(Ending::Diverged { t, state, value }));
         }
-        let output = match stack.update(&mut self.control, &Input { q, nu, reference }) {
+        let output = match stack.update_with_sines(&mut self.control, &Input { q, nu, reference }, &sines) {
             Ok(output) => output,
             Err(error) => return Ok(Some(Ending::Refused { t, error })),
         };
@@ -261,7 +261,7 @@ impl<'a> Run<'a> {
         &'b mut self,
         t: f64,
         (tip, reference): (Vector3<f64>, &'b Reference<f64>),
-        sines: &Sines,
+        sines: &PlantSines,
         output: &'b Output<f64, 3>,
         manipulability_squared: f64,
     ) -> Sample<'b> {
@@ -291,7 +291,7 @@ impl<'a> Run<'a> {
 
     /// The plant over one control period.
     #[inline]
-    fn advance(&mut self, t: f64, sines: Sines, torque: &Torque<f64, 3>) {
+    fn advance(&mut self, t: f64, sines: PlantSines, torque: &Torque<f64, 3>) {
         let Simulation { plant, clock, .. } = self.simulation;
         self.state = plant.step(t, &self.state, &sines, torque);
         let step = clock.period / f64::from(clock.substeps);
