@@ -12,8 +12,12 @@ use crate::table::{Table, number};
 /// Switching gains of bsmc for the robot of the thesis, 15 % of its force limits: N, then N m.
 const DEFAULT: [f64; 5] = [300.0, 30.0, 22.5, 30.0, 22.5];
 
-/// Factors on the gains of forward speed, yaw and all joints, in all combinations.
-const FACTORS: [f64; 6] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0];
+/// Factors on the gains of forward speed and of yaw, in all combinations with those of the joints.
+const BASE_FACTORS: [f64; 6] = [0.01, 0.02, 0.05, 0.1, 0.3, 1.0];
+
+/// Factors on the gains of all joints: finer where the optimum lies, between too little for the disturbance and too much
+/// chattering.
+const JOINT_FACTORS: [f64; 7] = [0.5, 0.6, 0.7, 0.75, 0.85, 1.0, 1.5];
 
 /// One point of the grid.
 struct Point {
@@ -65,9 +69,9 @@ pub(crate) fn run(mmsim: &Mmsim) -> Result<()> {
 fn points() -> Vec<Point> {
     let [forward, yaw, joint1, joint2, joint3] = DEFAULT;
     let mut points = Vec::new();
-    for a in FACTORS {
-        for b in FACTORS {
-            for c in FACTORS {
+    for a in BASE_FACTORS {
+        for b in BASE_FACTORS {
+            for c in JOINT_FACTORS {
                 points.push(Point {
                     factors: [a, b, c],
                     gains: [a * forward, b * yaw, c * joint1, c * joint2, c * joint3],

@@ -320,8 +320,8 @@ where
 /// Lets only finite inputs through.
 #[inline]
 fn supervise<T: Real, const N: usize>(input: &Input<T, N>) -> Result<(), ControlError> {
-    // A finite number less itself is zero, any other is NaN.
-    let gap = |v: &Vector3<T>| (v.x - v.x) + (v.y - v.y) + (v.z - v.z);
+    // A finite number times zero is zero, any other is NaN.
+    let gap = |v: &Vector3<T>| v.x * T::ZERO + v.y * T::ZERO + v.z * T::ZERO;
     if !input.q.is_finite() {
         return Err(ControlError::NonFinite("configuration"));
     }

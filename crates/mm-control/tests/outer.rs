@@ -39,7 +39,7 @@ fn evaluate(
     reference: &Reference<f64>,
 ) -> OuterOutput<f64, 3> {
     let robot = stack.robot();
-    stack.outer().evaluate(robot, (q, &robot.posture(&q.joints)), nu, reference)
+    stack.outer().evaluate(robot, (q, &robot.sines(q)), nu, reference)
 }
 
 fn vector(nu: &Velocity<f64, 3>) -> SVector<f64, 5> {

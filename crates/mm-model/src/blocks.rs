@@ -33,10 +33,11 @@ impl<T: Real, const N: usize> Configuration<T, N> {
     }
 }
 
-/// Whether none of the numbers is infinite or NaN: a finite number less itself is zero, any other is NaN.
+/// Whether none of the numbers is infinite or NaN: a finite number times zero is zero, any other is NaN.
 #[inline]
 fn all_finite<T: Real, const N: usize>([a, b, c]: [T; 3], joints: &[T; N]) -> bool {
-    joints.iter().fold((a - a) + (b - b) + (c - c), |sum, &joint| sum + (joint - joint)) == T::ZERO
+    joints.iter().fold((a * T::ZERO) + (b * T::ZERO) + (c * T::ZERO), |sum, &joint| sum + joint * T::ZERO)
+        == T::ZERO
 }
 
 /// Defines a vector of two base channels and N joint channels with the arithmetic that the laws need.

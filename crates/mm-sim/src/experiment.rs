@@ -187,15 +187,17 @@ fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStack<f64, 3>, 
     let file = &loaded.file;
     let period = file.simulation.control_period_s;
     let kind = law_kind(file.controller.kind).unwrap_or(LawKind::Bfsmc);
-    let mut gains = Gains::for_robot(&robot, kind, period);
     let given = &file.controller.gains;
+    let mut gains = match given.switching_gain {
+        None => Gains::for_robot(&robot, kind, period),
+        Some(k) => Gains::with_switching(&robot, kind, period, Force::from_channels(k.into_iter())),
+    };
     let force = |raw: Option<[f64; 5]>, default| {
         raw.map_or(default, |values| Force::from_channels(values.into_iter()))
     };
     let velocity = |raw: Option<[f64; 5]>, default| {
         raw.map_or(default, |values| Velocity::from_channels(values.into_iter()))
     };
-    gains.switching = force(given.switching_gain, gains.switching);
     gains.boundary_layer = velocity(given.boundary_layer, gains.boundary_layer);
     gains.fuzzy = force(given.fuzzy_gain, gains.fuzzy);
     gains.fuzzy_scale = velocity(given.fuzzy_scale, gains.fuzzy_scale);

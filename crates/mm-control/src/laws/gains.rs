@@ -1,6 +1,6 @@
 //! The gains of all switching laws, with defaults that follow the robot.
 
-use mm_model::{Force, Mechanism, ParamError, Real, Robot, Velocity, check};
+use mm_model::{Force, Mechanism, ParamError, Real, Robot, Torque, Velocity, check};
 
 /// Inertia that each channel feels while all others are free, 1/(M^-1)_ii, at the rest posture.
 ///
@@ -63,22 +63,28 @@ where
     /// | learning limit | 50 % of the force limits |
     #[must_use]
     pub fn for_robot(robot: &Robot<T, N>, kind: super::LawKind, period: T) -> Self {
+        let switching = force_limits(robot).scaled(T::from_f64(0.15));
+        Self::with_switching(robot, kind, period, switching)
+    }
+
+    /// The same with another switching gain, and what follows from it by the table of [`for_robot`](Self::for_robot).
+    #[must_use]
+    pub fn with_switching(
+        robot: &Robot<T, N>,
+        kind: super::LawKind,
+        period: T,
+        switching: Force<T, N>,
+    ) -> Self {
         let n = T::from_f64;
-        let limits = &robot.params().limits;
-        let push = limits.wheel_torque;
-        // The largest force and moment that two wheels make are not those of one torque vector: each on its own.
-        let most = Force {
-            forward: robot.force_of(&torque(push, push)).forward,
-            yaw: robot.force_of(&torque(push, -push)).yaw,
-            joints: limits.joint_torque,
-        };
+        let most = force_limits(robot);
         let EffectiveInertia(inertia) = EffectiveInertia::of(robot);
         let bandwidth = n(100.0).min(n(0.1) / period);
         let width = |gain: Force<T, N>, slope: T| {
-            let ratio = gain.zip(inertia, |k, m| slope * k / (bandwidth * m));
+            // A channel that does not switch needs some width all the same.
+            let ratio =
+                gain.zip(inertia, |k, m| slope * if k > T::ZERO { k } else { T::ONE } / (bandwidth * m));
             Velocity::from_channels(ratio.channels())
         };
-        let switching = most.scaled(n(0.15));
         let (fuzzy, fuzzy_scale) = match kind {
             super::LawKind::BfsmcThesis => (switching, Velocity::splat(T::ONE)),
             _ => {
@@ -130,6 +136,13 @@ impl<T: Real, const N: usize> Gains<T, N> {
     }
 }
 
-fn torque<T: Real, const N: usize>(right: T, left: T) -> mm_model::Torque<T, N> {
-    mm_model::Torque { right, left, joints: [T::ZERO; N] }
+/// The largest generalized forces that the actuators make: force and moment of the wheels each on its own.
+fn force_limits<T: Real, const N: usize>(robot: &Robot<T, N>) -> Force<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    let limits = &robot.params().limits;
+    let push = limits.wheel_torque;
+    let wheels = |right, left| robot.force_of(&Torque { right, left, joints: [T::ZERO; N] });
+    Force { forward: wheels(push, push).forward, yaw: wheels(push, -push).yaw, joints: limits.joint_torque }
 }
