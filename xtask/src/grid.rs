@@ -13,7 +13,7 @@ use crate::table::{Table, number};
 const DEFAULT: [f64; 5] = [300.0, 30.0, 22.5, 30.0, 22.5];
 
 /// Factors on the gains of forward speed, yaw and all joints, in all combinations.
-const FACTORS: [f64; 6] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0];
+const FACTORS: [f64; 6] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.5];
 
 /// One point of the grid.
 struct Point {
