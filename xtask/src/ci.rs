@@ -31,8 +31,6 @@ const STEPS: [Step; 8] = [
     ("clippy", |_| {
         cargo_step(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])
     }),
-    ("tests, dev profile", |tests| test(tests, &[])),
-    ("tests, testrelease profile", |tests| test(tests, &["--profile", "testrelease"])),
     ("documentation", |_| {
         let mut cargo = cargo(&["doc", "--workspace", "--no-deps", "--locked"]);
         run_command(cargo.env("RUSTDOCFLAGS", "-D warnings"))?;
@@ -42,6 +40,8 @@ const STEPS: [Step; 8] = [
         targets::build(false)?;
         Ok(End::Done)
     }),
+    ("tests, dev profile", |tests| test(tests, &[])),
+    ("tests, testrelease profile", |tests| test(tests, &["--profile", "testrelease"])),
     ("scenarios", |_| {
         scenarios::run(&Mmsim::find(None, Profile::TestRelease)?)?;
         Ok(End::Done)
