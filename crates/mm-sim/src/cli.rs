@@ -23,7 +23,7 @@ pub enum Exit {
     Failed = 1,
     /// Bad usage or bad input.
     Usage = 2,
-    /// Finished, but the scenario's [expect] was missed.
+    /// Finished, but the scenario's `[expect]` was missed.
     Missed = 3,
 }
 

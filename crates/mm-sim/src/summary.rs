@@ -1,4 +1,4 @@
-//! The summary of a run: the `--json` object, its warnings and the judgement of [expect].
+//! The summary of a run: the `--json` object, its warnings and the judgement of `[expect]`.
 
 use serde::Serialize;
 
@@ -84,7 +84,7 @@ pub fn describe(ending: &Ending) -> Option<String> {
     }
 }
 
-/// The entries of [expect] that the metrics miss, in words.
+/// The entries of `[expect]` that the metrics miss, in words.
 #[must_use]
 pub fn missed(expect: &Expect, m: &Metrics) -> Vec<String> {
     let mut checks: Vec<(String, Option<Bounds>, Option<f64>)> = Vec::new();
