@@ -63,9 +63,6 @@ pub fn warnings(result: &RunResult, speed_limit: f64) -> Vec<String> {
         let times = m.joint_limit_crossings.max(1);
         all.push(format!("a joint was outside its limits, first at t = {t:.3} s, {times} time(s) in all"));
     }
-    if let Some(text) = describe(&result.ending) {
-        all.push(text);
-    }
     all
 }
 
@@ -76,7 +73,8 @@ pub fn describe(ending: &Ending) -> Option<String> {
         Ending::Finished => None,
         Ending::Stopped { t } => Some(format!("interrupted at t = {t:.3} s")),
         Ending::Diverged { t, state, value } => {
-            Some(format!("diverged at t = {t:.3} s: {state} was {value:.4e}"))
+            let value = if value.abs() < 1e5 { format!("{value:.3}") } else { format!("{value:.3e}") };
+            Some(format!("diverged at t = {t:.3} s: {state} was {value}"))
         }
         Ending::Refused { t, error } => {
             Some(format!("the controller refused its input at t = {t:.3} s: {error}"))

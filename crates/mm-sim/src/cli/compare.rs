@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::run::{execute, log_path, prepare};
-use super::{CompareArgs, Exit, complain, print, table};
+use super::run::{complain_of, execute, log_path, prepare};
+use super::{CompareArgs, Exit, print, table};
 use crate::experiment::Experiment;
 use crate::metrics::PerAxisSum;
 use crate::scenario::Loaded;
@@ -39,11 +39,13 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
         })
         .collect();
     let mut runs = Vec::new();
+    let mut endings = Vec::new();
     let mut exit = Exit::Done;
     for outcome in in_parallel(&jobs) {
         match outcome {
             Ok((summary, ended)) => {
                 exit = exit.max(ended);
+                endings.push(ended);
                 runs.push(summary);
             }
             Err(failed) => exit = exit.max(failed),
@@ -56,10 +58,8 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
     } else if !common.quiet {
         print(&table::comparison(&runs, improvement_percent));
     }
-    for run in &runs {
-        for warning in &run.warnings {
-            complain(&format_args!("warning: {}: {warning}", run.controller));
-        }
+    for (run, ended) in runs.iter().zip(endings) {
+        complain_of(run, ended, &format!("{}: ", run.controller));
     }
     Ok(exit)
 }

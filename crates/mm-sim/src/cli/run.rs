@@ -35,19 +35,26 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
             exit = Exit::Missed;
         }
     }
-    report(common, &summary);
+    report(common, &summary, exit);
     Ok(exit)
 }
 
 /// Prints the summary in the form asked for.
-fn report(common: &Common, summary: &Summary) {
+fn report(common: &Common, summary: &Summary, exit: Exit) {
     if common.json {
         print(&summary.to_json());
     } else if !common.quiet {
         print(&table::single(summary));
     }
-    for warning in &summary.warnings {
-        complain(&format_args!("warning: {warning}"));
+    complain_of(summary, exit, "");
+}
+
+/// Prints the warnings of a run; how it failed, the last of them, was said as an error already.
+pub(super) fn complain_of(summary: &Summary, exit: Exit, prefix: &str) {
+    let said = usize::from(exit == Exit::Failed);
+    let count = summary.warnings.len().saturating_sub(said);
+    for warning in summary.warnings.iter().take(count) {
+        complain(&format_args!("warning: {prefix}{warning}"));
     }
 }
 
@@ -96,6 +103,8 @@ pub(super) fn execute(
         let missed = summary::missed(&file.expect, &result.metrics);
         warnings.extend(missed.into_iter().map(|miss| format!("[expect] missed: {miss}")));
     }
+    let ended = summary::describe(&result.ending);
+    warnings.extend(ended.clone());
     let summary = Summary {
         schema: SCHEMA,
         scenario: loaded.name().to_owned(),
@@ -117,7 +126,7 @@ pub(super) fn execute(
         Ending::Diverged { .. } | Ending::Refused { .. } => (Outcome::Diverged, Exit::Failed),
     };
     recorder.finish(outcome, &summary.to_json(), &summary.digest).map_err(|error| fail(&error))?;
-    if let Some(text) = summary::describe(&result.ending) {
+    if let Some(text) = ended {
         complain(&format_args!("error: {}: {text}", loaded.source_name()));
         if let Some(path) = &summary.log {
             complain(&format_args!("the log up to there is {path}"));

@@ -31,9 +31,10 @@ fn short(value: f64) -> String {
 pub(super) fn single(s: &Summary) -> String {
     let m = &s.metrics;
     let mut out = format!(
-        "{} with {}: {} s simulated in {} s, {} times real time\n\n",
+        "{} with {}: {} of {} s simulated in {} s, {} times real time\n\n",
         s.scenario,
         s.controller,
+        short(s.real_time_factor * s.wall_s),
         short(s.duration_s),
         short(s.wall_s),
         short(s.real_time_factor)
