@@ -96,6 +96,17 @@ fn a_log_that_cannot_be_written_fails_the_run() {
     folder.expect(0, &[&args[..], &["--no-log"]].concat());
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_named_as_the_reason() {
+    let folder = Folder::new("full");
+    std::fs::create_dir(folder.path("out")).expect("a folder");
+    std::os::unix::fs::symlink("/dev/full", folder.path("out/square.mcap")).expect("a link");
+    let ended = folder.expect(1, &["--scenario", "square", "--set", "simulation.duration_s=20", "--quiet"]);
+    assert!(ended.stderr.contains("out/square.mcap"), "which file:\n{}", ended.stderr);
+    assert!(ended.stderr.contains("No space left"), "and why:\n{}", ended.stderr);
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_leaves_a_complete_log() {
