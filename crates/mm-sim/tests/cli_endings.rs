@@ -151,3 +151,12 @@ fn a_reader_that_goes_away_is_no_panic() {
         assert_eq!(ended.code, 0, "{args:?} did its work:\n{}", ended.stderr);
     }
 }
+
+#[test]
+fn a_controller_named_twice_is_refused() {
+    let folder = Folder::new("twice");
+    let args = ["compare", "--scenario", "square", "--controllers", "bsmc,bfsmc,bsmc"];
+    let ended = folder.expect(2, &args);
+    assert!(ended.stderr.contains("bsmc"), "which:\n{}", ended.stderr);
+    assert!(!folder.path("out").exists(), "two runs would write one log");
+}
