@@ -1,11 +1,14 @@
 //! `mmsim compare`: one scenario, several controllers, one table.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use clap::CommandFactory as _;
+use clap::error::ErrorKind;
 use serde::Serialize;
 
 use super::run::{complain_of, execute, log_path, prepare};
-use super::{CompareArgs, Exit, print, table};
+use super::{Cli, CompareArgs, Exit, print, table};
 use crate::experiment::Experiment;
 use crate::metrics::PerAxisSum;
 use crate::scenario::Loaded;
@@ -23,6 +26,11 @@ struct Comparison<'a> {
 pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
     let common = &args.common;
     let spec = common.scenario()?;
+    if let Some(kind) = named_twice(&args.controllers) {
+        // Two runs at once would write one log.
+        let message = format!("controller `{kind}` is named twice in --controllers");
+        return Err(Cli::command().error(ErrorKind::ValueValidation, message));
+    }
     let mut prepared = Vec::new();
     for kind in &args.controllers {
         match prepare(spec, &common.sets(Some(kind.trim()))) {
@@ -62,6 +70,12 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
         complain_of(run, ended, &format!("{}: ", run.controller));
     }
     Ok(exit)
+}
+
+/// The first controller that the list has a second time.
+fn named_twice(kinds: &[String]) -> Option<&str> {
+    let mut seen = BTreeSet::new();
+    kinds.iter().map(|kind| kind.trim()).find(|kind| !seen.insert(*kind))
 }
 
 type Outcome = Result<(Summary, Exit), Exit>;

@@ -1,5 +1,6 @@
 //! `mmsim run`: one scenario, one controller.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -69,6 +70,12 @@ pub(super) fn prepare(spec: &str, sets: &[String]) -> Result<(Loaded, Experiment
     Ok((loaded, experiment))
 }
 
+/// An error and what caused it: an error does not repeat its source.
+fn with_causes(error: &dyn Error) -> String {
+    let causes = core::iter::successors(error.source(), |&cause| cause.source());
+    causes.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
+}
+
 /// Path of a log in a folder.
 pub(super) fn log_path(out: &Path, name: &str) -> PathBuf {
     out.join(format!("{name}.mcap"))
@@ -80,13 +87,15 @@ pub(super) fn execute(
     log: Option<PathBuf>,
     show_progress: bool,
 ) -> Result<(Summary, Exit), Exit> {
-    let fail = |error: &dyn core::fmt::Display| {
-        complain(&format_args!("error: {error}"));
+    let fail = |error: &dyn Error| {
+        complain(&format_args!("error: {}", with_causes(error)));
         Exit::Failed
     };
     if let Some(folder) = log.as_deref().and_then(Path::parent) {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| fail(&format_args!("cannot make the folder {}: {error}", folder.display())))?;
+        std::fs::create_dir_all(folder).map_err(|error| {
+            complain(&format_args!("error: cannot make the folder {}: {error}", folder.display()));
+            Exit::Failed
+        })?;
     }
     let mut recorder =
         RunRecorder::open(loaded, experiment, log.clone(), show_progress).map_err(|error| fail(&error))?;

@@ -1,0 +1,162 @@
+//! Runs that end otherwise than planned say so by exit code and message, and keep their log.
+//!
+//! Law: 1 for a run that diverged, was interrupted or could not be written; 3 for a finished run of the file as it stands that
+//! misses its [expect], which is a warning as soon as anything was changed; a log is finished whatever ends the run.
+//! Why: scripts branch on the code, people want to look into the run that failed.
+//! Reference: the interface; the `mcap` crate reads the logs. No tolerance.
+
+#![expect(clippy::expect_used, clippy::panic, reason = "a helper that cannot go on is a failed test")]
+
+mod common {
+    pub(crate) mod command;
+}
+
+use common::command::{Folder, complete_log, ended};
+use serde_json::Value;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A reference that runs away from wheels of little torque: 3 m/s at 0.1 N m.
+const RUNAWAY: &str = "name = \"away\"\n[simulation]\nduration_s = 10\n[robot]\nwheel_torque_limit_n_m = 0.1\n\
+    [trajectory]\nkind = \"line\"\nfrom_m = [0.5, 0.0, 0.5]\nvelocity_m_s = [3.0, 0.0, 0.0]\n";
+
+/// A spiral too short to come down to its reference, with a bound that it cannot keep.
+const MISSES: &str = "name = \"short\"\n[simulation]\nduration_s = 0.1\n[trajectory]\nkind = \"spiral\"\n\
+    [expect]\nmax_error_m = { max = 0.01 }\nsettling_time_s = { max = 0.05 }\n";
+
+fn summary(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("not one JSON object ({error}):\n{text}"))
+}
+
+#[test]
+fn a_run_that_diverges_says_when_and_what_and_keeps_its_log() {
+    let folder = Folder::new("diverges");
+    folder.write("away.toml", RUNAWAY);
+    let ended = folder.expect(1, &["--scenario", "away.toml", "--json"]);
+    let value = summary(&ended.stdout);
+    let warning = value["warnings"].to_string();
+    for part in ["diverged at t = 3.", "distance of the tip from its reference (m)"] {
+        assert!(ended.stderr.contains(part), "{part:?} is not in:\n{}", ended.stderr);
+        assert!(warning.contains(part), "{part:?} is not in the warnings {warning}");
+    }
+    assert!(ended.stderr.contains("away.toml"), "the file is named:\n{}", ended.stderr);
+    assert!(ended.stderr.contains("out/away.mcap"), "the log is named:\n{}", ended.stderr);
+    let largest = value["metrics"]["max_error_m"].as_f64().expect("a number");
+    assert!(largest > 9.9 && largest <= 10.0, "the metrics go up to 10 m, not {largest} m");
+    let log = complete_log(&folder.path("out/away.mcap"));
+    assert_eq!(log.result["outcome"], "diverged", "how it ended");
+    assert!(log.topics["/control"] > 300, "what led there is in the log: {:?}", log.topics);
+    assert_eq!(summary(&log.attachments["summary.json"]), value, "the summary is in the log");
+}
+
+#[test]
+fn a_run_that_is_over_at_once_has_a_summary_too() {
+    let folder = Folder::new("at-once");
+    folder.write("away.toml", &RUNAWAY.replace("[0.5, 0.0, 0.5]", "[50.0, 0.0, 0.5]"));
+    let ended =
+        folder.expect(1, &["--scenario", "away.toml", "--set", "initial.base_pose=[0, 0, 0]", "--json"]);
+    let value = summary(&ended.stdout);
+    assert!(value["metrics"]["min_manipulability"].is_null(), "null where nothing was seen, never infinite");
+    assert!(ended.stderr.contains("diverged at t = 0.000 s"), "when:\n{}", ended.stderr);
+    let log = complete_log(&folder.path("out/away.mcap"));
+    assert_eq!(log.result["outcome"], "diverged", "how it ended");
+    assert_eq!(log.result["samples"], "0", "without a sample");
+}
+
+#[test]
+fn a_missed_expectation_is_3_as_the_file_stands_and_a_warning_otherwise() {
+    let folder = Folder::new("misses");
+    folder.write("short.toml", MISSES);
+    let ended = folder.expect(3, &["--scenario", "short.toml", "--no-log"]);
+    assert!(ended.stdout.contains("ITAE"), "the run finished, its table is there");
+    for part in ["max_error_m is 0.2", "at most 0.01", "settling_time_s is not defined"] {
+        assert!(ended.stderr.contains(part), "{part:?} is not in:\n{}", ended.stderr);
+    }
+    for change in [&["--set", "description=changed"] as &[&str], &["--controller", "bfsmc"], &["--seed", "0"]]
+    {
+        let args = [&["--scenario", "short.toml", "--no-log", "--json"], change].concat();
+        let ended = folder.expect(0, &args);
+        let warnings = summary(&ended.stdout)["warnings"].to_string();
+        for said in [&warnings, &ended.stderr] {
+            assert!(said.contains("max_error_m is 0.2"), "with {change:?} a warning:\n{said}");
+        }
+    }
+    let args = ["compare", "--scenario", "short.toml", "--controllers", "bfsmc", "--no-log"];
+    let ended = folder.expect(0, &args);
+    assert!(ended.stderr.contains("max_error_m is 0.2"), "a warning in a comparison:\n{}", ended.stderr);
+}
+
+#[test]
+fn a_log_that_cannot_be_written_fails_the_run() {
+    let folder = Folder::new("unwritable");
+    folder.write("out", "a file where the folder should be");
+    let args = ["--scenario", "square", "--set", "simulation.duration_s=0.1", "--quiet"];
+    let ended = folder.expect(1, &args);
+    assert!(ended.stderr.contains("out"), "what cannot be made:\n{}", ended.stderr);
+    folder.expect(0, &[&args[..], &["--no-log"]].concat());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_named_as_the_reason() {
+    let folder = Folder::new("full");
+    std::fs::create_dir(folder.path("out")).expect("a folder");
+    std::os::unix::fs::symlink("/dev/full", folder.path("out/square.mcap")).expect("a link");
+    let ended = folder.expect(1, &["--scenario", "square", "--set", "simulation.duration_s=20", "--quiet"]);
+    assert!(ended.stderr.contains("out/square.mcap"), "which file:\n{}", ended.stderr);
+    assert!(ended.stderr.contains("No space left"), "and why:\n{}", ended.stderr);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_a_complete_log() {
+    let folder = Folder::new("interrupted");
+    let args = ["--scenario", "sinusoid", "--set", "simulation.duration_s=100000", "--json"];
+    let mut child = folder.command(&args).spawn().expect("the binary starts");
+    let log = folder.path("out/sinusoid.mcap");
+    let size = || std::fs::metadata(&log).map_or(0, |file| file.len());
+    let begin = Instant::now();
+    // The desired path and the robot are in the file before the first sample.
+    while size() < 200_000 && begin.elapsed() < Duration::from_secs(60) {
+        assert!(child.try_wait().expect("a child").is_none(), "it ended by itself");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    assert!(size() >= 200_000, "the log grows while the run is under way");
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill is there");
+    assert!(sent.success(), "the signal was sent");
+    let ended = ended(child.wait_with_output().expect("it ends"));
+    assert_eq!(ended.code, 1, "an interrupted run failed:\n{}", ended.stderr);
+    assert!(ended.stderr.contains("interrupted at t = "), "when:\n{}", ended.stderr);
+    let complete = complete_log(&log);
+    assert_eq!(complete.result["outcome"], "interrupted", "how it ended");
+    assert!(complete.topics["/control"] > 10, "with its samples: {:?}", complete.topics);
+    let value = summary(&ended.stdout);
+    assert_eq!(summary(&complete.attachments["summary.json"]), value, "the summary of what was run");
+    assert_eq!(complete.result["digest"], *value["digest"].as_str().expect("a digest"), "and its digest");
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_panic() {
+    let folder = Folder::new("closed-stdout");
+    for args in [
+        &["--scenario", "square", "--set", "simulation.duration_s=1", "--no-log"] as &[&str],
+        &["scenario", "list"],
+        &["scenario", "schema"],
+        &["--help"],
+    ] {
+        let mut child = folder.command(args).stdout(Stdio::piped()).spawn().expect("the binary starts");
+        drop(child.stdout.take());
+        let ended = ended(child.wait_with_output().expect("it ends"));
+        assert!(!ended.stderr.contains("panicked"), "{args:?}:\n{}", ended.stderr);
+        assert_eq!(ended.code, 0, "{args:?} did its work:\n{}", ended.stderr);
+    }
+}
+
+#[test]
+fn a_controller_named_twice_is_refused() {
+    let folder = Folder::new("twice");
+    let args = ["compare", "--scenario", "square", "--controllers", "bsmc,bfsmc,bsmc"];
+    let ended = folder.expect(2, &args);
+    assert!(ended.stderr.contains("bsmc"), "which:\n{}", ended.stderr);
+    assert!(!folder.path("out").exists(), "two runs would write one log");
+}
