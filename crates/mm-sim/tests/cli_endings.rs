@@ -160,3 +160,19 @@ fn a_controller_named_twice_is_refused() {
     assert!(ended.stderr.contains("bsmc"), "which:\n{}", ended.stderr);
     assert!(!folder.path("out").exists(), "two runs would write one log");
 }
+
+#[test]
+fn an_improvement_is_that_of_whole_runs_and_of_numbers() {
+    let folder = Folder::new("improvement");
+    folder.write("away.toml", RUNAWAY);
+    let compare = ["compare", "--scenario", "away.toml", "--controllers", "bsmc,bfsmc", "--no-log"];
+    let json = summary(&folder.expect(1, &[&compare[..], &["--json"]].concat()).stdout);
+    assert!(json.get("improvement_percent").is_none(), "none of runs that diverged: {json}");
+    // Straight along x: no error in y, nothing to improve there.
+    let short = [&compare[..], &["--set", "simulation.duration_s=1"]].concat();
+    let table = folder.expect(0, &short).stdout;
+    let row = table.lines().find(|line| line.starts_with("bfsmc below bsmc by")).expect("an improvement");
+    assert!(row.contains(" - ") && !table.contains("NaN"), "undefined is a dash:\n{table}");
+    let json = summary(&folder.expect(0, &[&short[..], &["--json"]].concat()).stdout);
+    assert!(json["improvement_percent"]["y"].is_null(), "and null in JSON");
+}

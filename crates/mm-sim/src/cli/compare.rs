@@ -59,7 +59,8 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
             Err(failed) => exit = exit.max(failed),
         }
     }
-    let improvement_percent = improvement(&runs);
+    // Runs that ended early cannot be compared: their integrals cover less time.
+    let improvement_percent = if exit == Exit::Done { improvement(&runs) } else { None };
     if common.json {
         let comparison = Comparison { runs: &runs, improvement_percent };
         print(&serde_json::to_string(&comparison).unwrap_or_default());

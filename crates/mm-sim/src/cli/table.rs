@@ -126,7 +126,8 @@ pub(super) fn comparison(runs: &[Summary], improvement: Option<PerAxisSum>) -> S
         }
     }
     if let Some(by) = improvement {
-        let [x, y, z, sum] = [by.x, by.y, by.z, by.sum].map(|p| format!("{p:.2} %"));
+        let [x, y, z, sum] = [by.x, by.y, by.z, by.sum]
+            .map(|p| if p.is_finite() { format!("{p:.2} %") } else { "-".to_owned() });
         let _ = writeln!(out, "{:20} {x:>11} {y:>11} {z:>11} {sum:>11}", "bfsmc below bsmc by");
         if first.scenario == "square-compare" {
             let _ = writeln!(
