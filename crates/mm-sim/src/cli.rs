@@ -63,7 +63,7 @@ struct Common {
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of everything random in the scenario.
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     seed: Option<u64>,
     /// Folder for the log.
     #[arg(long, value_name = "DIR", default_value = "./out")]

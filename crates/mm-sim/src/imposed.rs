@@ -10,7 +10,7 @@ use crate::digest::Digest;
 use crate::metrics::{Accumulator, Tick};
 use crate::plant::{Plant, PlantState};
 use crate::scenario::{Loaded, ScenarioError, Segment};
-use crate::simulation::{Clock, Ending, Recorder, RunResult, Sample};
+use crate::simulation::{ASK_EVERY, Clock, Ending, Recorder, RunResult, Sample};
 
 /// A motion of constant velocities, piece by piece.
 #[derive(Debug, Clone)]
@@ -123,6 +123,10 @@ impl Imposed {
         let mut crossed_at = None;
         for tick in 0..self.clock.ticks {
             let t = self.clock.time(tick);
+            if tick.is_multiple_of(ASK_EVERY) && !recorder.goes_on() {
+                ending = Ending::Stopped { t };
+                break;
+            }
             state.nu = self.piece(t).nu;
             let reference = self.reference(t);
             let tip = robot.tip_position(&state.q);

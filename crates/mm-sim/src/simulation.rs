@@ -85,7 +85,15 @@ pub trait Recorder {
     /// # Errors
     /// The recorder's own.
     fn record(&mut self, sample: &Sample<'_>) -> Result<bool, Self::Error>;
+
+    /// Whether to go on; asked every [`ASK_EVERY`] ticks, however seldom samples are taken.
+    fn goes_on(&mut self) -> bool {
+        true
+    }
 }
+
+/// Ticks after which a recorder is asked whether to go on: some milliseconds of wall time.
+pub const ASK_EVERY: u64 = 4096;
 
 /// A recorder that keeps nothing.
 #[derive(Debug, Clone, Copy, Default)]
@@ -163,6 +171,10 @@ impl Simulation {
         let mut run = Run::new(self);
         let mut ending = Ending::Finished;
         for tick in 0..self.clock.ticks {
+            if tick.is_multiple_of(ASK_EVERY) && !recorder.goes_on() {
+                ending = Ending::Stopped { t: self.clock.time(tick) };
+                break;
+            }
             if let Some(early) = run.tick(tick, recorder)? {
                 ending = early;
                 break;
@@ -180,7 +192,8 @@ struct Run<'a> {
     metrics: Accumulator,
     digest: Digest,
     authority: Force<f64, 3>,
-    reaching: bool,
+    /// Whether the reaching condition held at every sample; none before the first.
+    reaching: Option<bool>,
     crossed_at: Option<f64>,
 }
 
@@ -194,7 +207,7 @@ impl<'a> Run<'a> {
             metrics: Accumulator::new(clock.duration(), clock.period),
             digest: Digest::new(),
             authority: simulation.stack.law().authority(),
-            reaching: true,
+            reaching: None,
             crossed_at: None,
         }
     }
@@ -272,10 +285,11 @@ impl<'a> Run<'a> {
         let margin = &stack.gains().reaching_margin;
         let required = required_gain((stack.robot(), plant.robot()), (q, nu), signals, &external, margin);
         // A law has to offer what is asked for but for rounding.
-        self.reaching &= required
+        let met = required
             .channels()
             .zip(self.authority.channels())
             .all(|(needed, offered)| needed <= offered + 1e-9 * (1.0 + offered));
+        self.reaching = Some(met && self.reaching.unwrap_or(true));
         Sample {
             t,
             state: &self.state,
@@ -303,7 +317,7 @@ impl<'a> Run<'a> {
 
     fn result(self, ending: Ending) -> RunResult {
         RunResult {
-            metrics: self.metrics.finish(Some(self.reaching)),
+            metrics: self.metrics.finish(self.reaching),
             digest: self.digest.finish(),
             ending,
             joint_limit_crossed_at: self.crossed_at,

@@ -129,7 +129,11 @@ impl Recorder for RunRecorder {
             )]
             self.progress.set_position((sample.t / self.duration * PROGRESS_STEPS as f64) as u64);
         }
-        Ok(!interrupt::asked())
+        Ok(true)
+    }
+
+    fn goes_on(&mut self) -> bool {
+        !interrupt::asked()
     }
 }
 
