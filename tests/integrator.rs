@@ -11,7 +11,7 @@
 
 #![expect(clippy::expect_used, reason = "a helper that cannot go on is a failed test")]
 
-use mm_model::{Configuration, Force, Friction, Robot, RobotParams, Torque, Velocity};
+use mm_model::{Configuration, Friction, Robot, RobotParams, Torque, Velocity};
 use mm_sim::disturbance::{Disturbance, Disturbances, Shape, Target};
 use mm_sim::plant::{Plant, PlantState};
 use mm_tests::{Random, measured};
@@ -106,11 +106,7 @@ fn naive(
         let nu = Velocity { forward: y[7], yaw_rate: y[8], joints: [y[9], y[10], y[11]] };
         let (push, force) = disturbances.sizes(t, t);
         let at_tip = robot.jacobian(&q).transpose_product(&force);
-        let external = robot.force_of(&push).plus(Force {
-            forward: at_tip.forward,
-            yaw: at_tip.yaw_rate,
-            joints: at_tip.joints,
-        });
+        let external = robot.force_of(&push).plus(at_tip);
         let a = robot.forward_dynamics(&q, &nu, torque, &external);
         let mut rate =
             vec![nu.forward * libm::cos(q.heading), nu.forward * libm::sin(q.heading), nu.yaw_rate];

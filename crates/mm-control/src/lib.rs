@@ -10,7 +10,8 @@
 //!                     ^                                        ^
 //!                     '---------------- q, nu -----------------'
 //! ```
-//! [`ControlStack::update`] is the one call that simulator, Python, C and firmware make. The laws are in [`laws`]; the fuzzy engine, usable
+//! [`ControlStack::update`] is the one call that Python, C and firmware make, and the simulator with the sines of the state at hand
+//! ([`ControlStack::update_with_sines`]). The laws are in [`laws`]; the fuzzy engine, usable
 //! on its own, in [`fuzzy`].
 //!
 //! Errors are actual minus desired everywhere. Equation numbers are those of the thesis; where a formula differs from the printed
@@ -42,7 +43,6 @@ mod symmetric3;
 
 pub use error::{ControlError, SetupError};
 pub use laws::{Bfsmc, Gains, Law, LawKind};
-pub use observer::{MomentumObserver, ObserverState};
 pub use outer::{OuterLoop, OuterOutput, OuterParams};
 pub use reaching::required_gain;
 pub use stack::{ControlStack, ControlState, Input, Output, Reference, Signals, StackParams, Status};

@@ -4,7 +4,7 @@ use mm_model::{Force, Real};
 
 /// State of a [`MomentumObserver`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ObserverState<T, const N: usize> {
+pub(crate) struct ObserverState<T, const N: usize> {
     /// Momentum that the nominal model accounts for, kg m/s and kg m^2/s; none before the first update.
     explained: Option<Force<T, N>>,
     /// Learned disturbance, N and N m.
@@ -13,14 +13,12 @@ pub struct ObserverState<T, const N: usize> {
 
 impl<T: Real, const N: usize> ObserverState<T, N> {
     /// Nothing learned yet.
-    #[must_use]
-    pub fn initial() -> Self {
+    pub(crate) fn initial() -> Self {
         Self { explained: None, learned: Force::zero() }
     }
 
     /// The learned disturbance d_hat, on the side of the applied force, N and N m.
-    #[must_use]
-    pub const fn learned(&self) -> &Force<T, N> {
+    pub(crate) const fn learned(&self) -> &Force<T, N> {
         &self.learned
     }
 
@@ -44,7 +42,7 @@ impl<T: Real, const N: usize> ObserverState<T, N> {
 /// # Source
 /// A. De Luca, R. Mattone, Actuator failure detection and isolation using generalized momenta, ICRA 2003.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MomentumObserver<T, const N: usize> {
+pub(crate) struct MomentumObserver<T, const N: usize> {
     pub(crate) bandwidth: T,
     pub(crate) limit: Force<T, N>,
     pub(crate) period: T,

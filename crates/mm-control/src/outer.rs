@@ -5,7 +5,7 @@ mod posture_task;
 
 pub use params::OuterParams;
 
-use mm_model::{Configuration, Mechanism, Real, Robot, Sines, SinesOf, TipJacobian, Velocity};
+use mm_model::{Configuration, Force, Mechanism, Real, Robot, Sines, SinesOf, TipJacobian, Velocity};
 use nalgebra::Vector3;
 
 use crate::Reference;
@@ -118,8 +118,9 @@ where
 
     /// W^-1 times a covector.
     #[inline]
-    fn weighted(&self, covector: Velocity<T, N>) -> Velocity<T, N> {
-        covector.zip(self.inverse_weights, |a, w| a * w)
+    fn weighted(&self, covector: Force<T, N>) -> Velocity<T, N> {
+        let Force { forward, yaw, joints } = covector;
+        Velocity { forward, yaw_rate: yaw, joints }.zip(self.inverse_weights, |a, w| a * w)
     }
 
     /// A = J W^-1 J' + lambda^2 I.

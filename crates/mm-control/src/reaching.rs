@@ -6,14 +6,18 @@ use crate::Signals;
 
 /// The switching gain that would surely have made V = s'M s/2 decrease, channel by channel, N and N m.
 ///
-/// Equation: k_i >= |(dM nu_r' + dC nu_r + dg + dfriction)_i - d_hat,i| + |f_ext,i| + eta_i, with d = nominal minus actual. (4.44) as
-/// printed leaves the external force out and counts the fuzzy term against itself. For a law that learns, f_ext
-/// is inside the first magnitude, since d_hat contains it.
+/// Equation, with gap = (nominal less actual) of M nu_r' + C nu_r + g + friction:
+///
+/// ```text
+/// k_i >= |gap_i| + |f_ext,i| + eta_i             for a law that does not learn
+/// k_i >= |gap_i + f_ext,i - d_hat,i| + eta_i     for one that does, since d_hat stands for both
+/// ```
+/// (4.44) as printed leaves the external force out and counts the fuzzy term against itself.
 ///
 /// Only a simulator can evaluate it: it needs the `actual` robot and the `external` force.
 #[must_use]
 pub fn required_gain<T: Real, const N: usize>(
-    (nominal, actual): (&Robot<T, N>, &Robot<T, N>),
+    (nominal, actual, learns): (&Robot<T, N>, &Robot<T, N>, bool),
     (q, nu): (&Configuration<T, N>, &Velocity<T, N>),
     signals: &Signals<T, N>,
     external: &Force<T, N>,
@@ -31,7 +35,6 @@ where
             .plus(robot.friction(nu))
     };
     let gap = equivalent(nominal).minus(equivalent(actual));
-    let learns = signals.learned.channels().any(|d| d.abs() > T::ZERO);
     let needed = if learns {
         gap.plus(*external).minus(signals.learned).map(Real::abs)
     } else {

@@ -3,7 +3,8 @@
 use mm_model::{Configuration, Force, Mechanism, Real, Robot, SinesOf, Torque, Velocity, check};
 use nalgebra::Vector3;
 
-use crate::laws::{Gains, Law};
+use crate::fuzzy::Mamdani;
+use crate::laws::{Bfsmc, Gains, Law};
 use crate::observer::{MomentumObserver, ObserverState};
 use crate::outer::{OuterLoop, OuterParams};
 use crate::{ControlError, SetupError};
@@ -35,7 +36,7 @@ pub struct Input<T, const N: usize> {
 pub struct Status {
     /// A torque was cut to its limit.
     pub saturated: bool,
-    /// The manipulability is below its threshold: the pseudo-inverse is damped.
+    /// The manipulability is below its threshold, where the pseudo-inverse is damped if damping is on.
     pub near_singular: bool,
     /// A joint is outside its limits.
     pub beyond_joint_limit: bool,
@@ -162,21 +163,32 @@ where
         Self::with_law(robot, law, params)
     }
 
-    /// A stack around a law of the caller's own making, such as a [`Bfsmc`](crate::Bfsmc) with other rules.
+    /// A stack around the law [`Bfsmc`](crate::Bfsmc) with a rule base of the caller's own.
     ///
     /// # Errors
-    /// The first parameter that does not work, by name.
-    pub fn with_law(
+    /// The first parameter that does not work, by name, or the rule base.
+    pub fn with_rules(
         robot: Robot<T, N>,
-        law: Law<T, N>,
+        rules: &Mamdani<'_, T>,
         params: StackParams<T, N>,
     ) -> Result<Self, SetupError> {
+        Self::with_law(robot, Law::Bfsmc(Bfsmc::with_rules(&params.gains, rules)?), params)
+    }
+
+    fn with_law(robot: Robot<T, N>, law: Law<T, N>, params: StackParams<T, N>) -> Result<Self, SetupError> {
         let StackParams { period, outer, gains } = params;
         check::positive(period, "control_period_s")?;
         gains.check()?;
         let learns = matches!(law, Law::Bfsmc(_)) && gains.observer_bandwidth > T::ZERO;
         if learns && gains.observer_bandwidth * period > T::ONE {
             return Err(mm_model::ParamError::OutOfRange("observer_bandwidth_1_s").into());
+        }
+        let half_range = robot.params().limits.joints.iter().fold(None, |least: Option<T>, (lo, hi)| {
+            let half = (*hi - *lo) * T::HALF;
+            Some(least.map_or(half, |other| other.min(half)))
+        });
+        if half_range.is_some_and(|half| outer.joint_limit_margin > half) {
+            return Err(mm_model::ParamError::OutOfRange("joint_limit_margin_rad").into());
         }
         let observer = learns.then_some(MomentumObserver {
             bandwidth: gains.observer_bandwidth,
@@ -210,6 +222,12 @@ where
         &self.law
     }
 
+    /// Whether a disturbance is learned.
+    #[must_use]
+    pub const fn learns(&self) -> bool {
+        self.observer.is_some()
+    }
+
     /// The inner gains.
     #[must_use]
     pub const fn gains(&self) -> &Gains<T, N> {
@@ -234,7 +252,9 @@ where
         self.control(state, input, &self.robot.sines(&input.q))
     }
 
-    /// The same update for a caller that knows the sines of `input.q` already: the same bits.
+    /// The same update for a caller that knows the sines of `input.q` already, as a simulator does: the same bits.
+    ///
+    /// The sines must be those of `input.q` ([`Robot::sines`]); with others the torques are wrong.
     ///
     /// # Errors
     /// As [`update`](Self::update).

@@ -17,8 +17,10 @@ mod common {
 }
 
 use common::random::Random;
-use mm_control::fuzzy::{SMOOTH, THESIS};
-use mm_control::{Bfsmc, ControlStack, Gains, Input, Law, LawKind, OuterParams, Reference, StackParams};
+use mm_control::fuzzy::{FuzzyError, Mamdani, SMOOTH, THESIS};
+use mm_control::{
+    Bfsmc, ControlStack, Gains, Input, Law, LawKind, OuterParams, Reference, SetupError, StackParams,
+};
 use mm_model::{Configuration, Force, Robot, RobotParams, Velocity};
 use nalgebra::Vector3;
 
@@ -191,10 +193,13 @@ fn bfsmc_is_odd_falling_and_continuous() {
     }
 }
 
-fn output(law: Law<f64, 3>, gains: Gains<f64, 3>) -> [f64; 5] {
+fn output(rules: Option<&Mamdani<'_, f64>>, gains: Gains<f64, 3>) -> [f64; 5] {
     let robot = robot();
     let params = StackParams { period: PERIOD, outer: OuterParams::default(), gains };
-    let stack = ControlStack::with_law(robot, law, params).unwrap();
+    let stack = match rules {
+        None => ControlStack::try_new(robot, LawKind::Bfsmc, params).unwrap(),
+        Some(rules) => ControlStack::with_rules(robot, rules, params).unwrap(),
+    };
     let q = Configuration { joints: [0.1, 0.9, -1.8], ..Configuration::zero() };
     let position = robot.tip_position(&q) + Vector3::repeat(1e-3);
     let reference = Reference { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() };
@@ -205,17 +210,15 @@ fn output(law: Law<f64, 3>, gains: Gains<f64, 3>) -> [f64; 5] {
 
 #[test]
 fn other_rules_give_another_torque() {
-    let (default, gains) = law(LawKind::Bfsmc);
-    let rules = SMOOTH;
-    let same = Law::Bfsmc(Bfsmc::with_rules(&gains, &rules.engine().unwrap()).unwrap());
+    let (_, gains) = law(LawKind::Bfsmc);
+    let smooth = output(Some(&SMOOTH.engine().unwrap()), gains);
     let bits = |torque: [f64; 5]| torque.map(f64::to_bits);
-    assert_eq!(bits(output(default, gains)), bits(output(same, gains)), "the default rules are SMOOTH");
+    assert_eq!(bits(output(None, gains)), bits(smooth), "the default rules are SMOOTH");
 
     // The two rules next to zero answer as strongly as their outer neighbours.
     let mut rules = SMOOTH;
     (rules.rules[2].output, rules.rules[4].output) = (5, 1);
-    let other = Law::Bfsmc(Bfsmc::with_rules(&gains, &rules.engine().unwrap()).unwrap());
-    let (a, b) = (output(default, gains), output(other, gains));
+    let (a, b) = (smooth, output(Some(&rules.engine().unwrap()), gains));
     for (channel, (a, b)) in a.iter().zip(b).enumerate() {
         assert!((a - b).abs() > 1e-3, "torque {channel} stays {a} under other rules");
     }
@@ -223,6 +226,22 @@ fn other_rules_give_another_torque() {
     let third = gains.fuzzy.scaled(1.0 / 3.0);
     for (a, k) in thesis.authority().channels().zip(third.channels()) {
         assert!((a - k).abs() < 1e-3 * k, "authority {a} at the weak edge of Appendix C, not {k}");
+    }
+}
+
+#[test]
+fn rules_that_aid_the_motion_are_refused() {
+    let (_, gains) = law(LawKind::Bfsmc);
+    let mut turned = SMOOTH;
+    for rule in &mut turned.rules {
+        rule.output = 6 - rule.output;
+    }
+    let mut lopsided = SMOOTH;
+    lopsided.rules[3].output = 4;
+    for (rules, what) in [(turned, "the wrong sign"), (lopsided, "an answer at zero")] {
+        let refused = Bfsmc::with_rules(&gains, &rules.engine().unwrap()).err();
+        let expected = SetupError::Fuzzy(FuzzyError::OutOfRange("rules"));
+        assert_eq!(refused, Some(expected), "rules with {what} are taken");
     }
 }
 

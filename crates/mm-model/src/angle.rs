@@ -36,8 +36,8 @@ impl<T: Real> Angle<T> {
     /// Sine and cosine of this angle turned on by `delta` radians.
     ///
     /// Equation: for |delta| <= 1/64 the addition theorem with sin(delta) and 1 - cos(delta) by their series, whose first neglected
-    /// terms are 1e-20 of what is kept; beyond it with [`Real::sin_cos`]. Integrators take small turns from a state whose sines they
-    /// know: this costs about a fifth of new ones and is as exact, to one rounding.
+    /// terms are below 1e-19 of the result; beyond it with [`Real::sin_cos`]. Integrators take small turns from a state whose sines
+    /// they know: this costs a fraction of new ones and is as exact, to one rounding.
     #[must_use]
     #[inline(always)]
     pub fn turned_by(self, delta: T) -> Self {

@@ -69,12 +69,13 @@ pub mod check {
         if value.is_finite() { Ok(value) } else { Err(ParamError::NonFinite(name)) }
     }
 
-    /// Passes a finite number above zero.
+    /// Passes a finite number above zero whose reciprocal is finite too.
     ///
     /// # Errors
     /// [`ParamError::NonFinite`] or [`ParamError::NonPositive`] otherwise.
     pub fn positive<T: Real>(value: T, name: &'static str) -> Result<T, ParamError> {
-        if finite(value, name)? > T::ZERO { Ok(value) } else { Err(ParamError::NonPositive(name)) }
+        let divides = finite(value, name)? > T::ZERO && (T::ONE / value).is_finite();
+        if divides { Ok(value) } else { Err(ParamError::NonPositive(name)) }
     }
 
     /// Passes a finite number that is zero or above.

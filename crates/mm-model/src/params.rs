@@ -222,6 +222,8 @@ impl<T: Real, const N: usize> RobotParams<T, N> {
             non_negative(value, "joint_coulomb_n_m")?;
         }
         positive(self.friction.smoothing, "smoothing_rad_s")?;
+        // Its square is what is divided by.
+        positive(self.friction.smoothing * self.friction.smoothing, "smoothing_rad_s")?;
         Ok(())
     }
 

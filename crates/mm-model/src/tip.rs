@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, Vector3};
 
-use crate::{Real, Velocity};
+use crate::{Force, Real, Velocity};
 
 /// A 3 x (2 + N) matrix that maps quasi-velocities to the velocity of the tip, kept as its columns.
 ///
@@ -38,10 +38,10 @@ impl<T: Real, const N: usize> TipJacobian<T, N> {
     /// For the joints these are the torques of (3.49), there written the other way round.
     #[must_use]
     #[inline]
-    pub fn transpose_product(&self, f: &Vector3<T>) -> Velocity<T, N> {
-        Velocity {
+    pub fn transpose_product(&self, f: &Vector3<T>) -> Force<T, N> {
+        Force {
             forward: dot(&self.forward, f),
-            yaw_rate: dot(&self.yaw_rate, f),
+            yaw: dot(&self.yaw_rate, f),
             joints: self.joints.map(|column| dot(&column, f)),
         }
     }

@@ -17,7 +17,7 @@ mod common {
 use common::differences::derivative;
 use common::random::{self, Random};
 use common::worst::Worst;
-use mm_model::{Angle, Configuration, Force, Mechanism, Real, Robot, Velocity};
+use mm_model::{Angle, Configuration, Mechanism, Real, Robot, Velocity};
 use nalgebra::{Matrix4, SMatrix, SVector, Vector3, matrix};
 
 const CASES: u32 = 10_000;
@@ -134,13 +134,17 @@ fn a_force_at_the_tip_does_the_same_work_in_the_joints() {
         let j = robot.jacobian(&q);
         let m = j.to_matrix();
         let along = j.transpose_product(&force);
-        matrix.see(case, &of_velocity(&along), &(m.transpose() * force), m.norm() * force.norm());
+        matrix.see(
+            case,
+            &SVector::<f64, 5>::from_iterator(along.channels()),
+            &(m.transpose() * force),
+            m.norm() * force.norm(),
+        );
         // Work done at the tip, its path taken by differences, is work done along the channels.
         let path = derivative(FASTEST, |t| robot.tip_position(&after(&q, &nu, t)));
-        let channels = Force { forward: along.forward, yaw: along.yaw_rate, joints: along.joints };
         let one = |x: f64| SVector::<f64, 1>::new(x);
         let scale = (m.norm() + 10.0) * FASTEST * force.norm();
-        work.see(case, &one(nu.power(&channels)), &one(path.dot(&force)), scale);
+        work.see(case, &one(nu.power(&along)), &one(path.dot(&force)), scale);
         // (3.49) as printed, with the arm's own Jacobian: the force that given torques hold.
         let square: SMatrix<f64, 3, 3> = m.fixed_columns::<3>(2).into_owned();
         if square.determinant().abs() > 0.05 * square.norm().powi(3) {

@@ -10,8 +10,10 @@ mod table;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+use clap::builder::PossibleValuesParser;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
+use mm_control::LawKind;
 
 /// Exit codes of the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -84,7 +86,7 @@ struct RunArgs {
     #[command(flatten)]
     common: Common,
     /// Controller to use instead of the scenario's.
-    #[arg(long, value_name = "KIND")]
+    #[arg(long, value_name = "KIND", value_parser = kinds())]
     controller: Option<String>,
 }
 
@@ -93,7 +95,7 @@ struct CompareArgs {
     #[command(flatten)]
     common: Common,
     /// Controllers to compare, separated by commas.
-    #[arg(long, value_name = "KIND,...", value_delimiter = ',', required = true)]
+    #[arg(long, value_name = "KIND,...", value_delimiter = ',', required = true, value_parser = kinds())]
     controllers: Vec<String>,
 }
 
@@ -113,6 +115,11 @@ enum ScenarioCommand {
     },
     /// Print the JSON schema of scenario files.
     Schema,
+}
+
+/// The controllers that a run can be given by name.
+fn kinds() -> PossibleValuesParser {
+    LawKind::ALL.map(LawKind::name).into_iter().chain(["none"]).collect::<Vec<_>>().into()
 }
 
 impl Common {
@@ -156,10 +163,17 @@ where
     })
 }
 
-/// Writes a result to standard output; a reader that has gone away is no error.
-fn print(text: &str) {
+/// Writes a result to standard output; a reader that has gone away is no failure, a full disk is.
+fn print(text: &str) -> Exit {
     use std::io::Write as _;
-    let _ = writeln!(std::io::stdout().lock(), "{text}");
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            complain(&format_args!("error: cannot write the result: {error}"));
+            Exit::Failed
+        }
+        _ => Exit::Done,
+    }
 }
 
 /// Writes a message to standard error.

@@ -114,8 +114,7 @@ impl Disturbances {
         let mut force = robot.force_of(&torque);
         if self.0.iter().any(|d| matches!(d.target, Target::Tip(_))) {
             let jacobian = robot.tip_jacobian(sines.heading, &sines.posture);
-            let along = jacobian.transpose_product(&at_tip);
-            force = force.plus(Force { forward: along.forward, yaw: along.yaw_rate, joints: along.joints });
+            force = force.plus(jacobian.transpose_product(&at_tip));
         }
         force
     }

@@ -39,8 +39,17 @@ impl Experiment {
         actual.friction = robot::friction(&file.plant.friction);
         let actual = robot::checked(loaded, actual)?;
         let clock = clock(&file.simulation);
+        if file.simulation.duration_s / file.simulation.plant_step_s > MOST_STEPS {
+            let message = format!("a run of {} s would never end", file.simulation.duration_s);
+            let expected = format!("at most {MOST_STEPS:e} plant steps");
+            return Err(loaded.problem("simulation.duration_s", message, expected));
+        }
         let plant = Plant::new(actual, disturbances(file), file.simulation.plant_step_s);
         if let Motion::Velocities { segment } = &file.trajectory.motion {
+            if file.controller.kind != ControllerKind::None {
+                let message = "imposed velocities leave a controller nothing to do";
+                return Err(loaded.problem("controller.kind", message, "`kind = \"none\"`"));
+            }
             let start = initial::given(loaded, &nominal);
             return Ok(Self::Open(Imposed::build(loaded, segment, (plant, clock), start)?));
         }
@@ -88,6 +97,9 @@ impl Experiment {
         }
     }
 }
+
+/// Plant steps beyond which a run would take years.
+const MOST_STEPS: f64 = 1e13;
 
 /// The law of a controller kind; none for imposed velocities.
 #[must_use]
@@ -204,7 +216,7 @@ fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStack<f64, 3>, 
     gains.observer_bandwidth = given.observer_bandwidth_1_s.unwrap_or(gains.observer_bandwidth);
     gains.learning_limit = force(given.learning_limit, gains.learning_limit);
     gains.reaching_margin = force(given.reaching_margin, gains.reaching_margin);
-    let outer = outer(&file.controller.outer);
+    let outer = outer(&robot, &file.controller.outer);
     ControlStack::try_new(robot, kind, StackParams { period, outer, gains }).map_err(|error| {
         let key = match error {
             SetupError::Param(error) => {
@@ -220,8 +232,8 @@ fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStack<f64, 3>, 
     })
 }
 
-fn outer(raw: &scenario::Outer) -> OuterParams<f64, 3> {
-    let mut outer = OuterParams::default();
+fn outer(robot: &Robot<f64, 3>, raw: &scenario::Outer) -> OuterParams<f64, 3> {
+    let mut outer = OuterParams::for_robot(robot);
     if let Some(gain) = raw.position_gain_1_s {
         outer.position_gain = Vector3::from(gain.expand());
     }

@@ -144,6 +144,12 @@ impl Accumulator {
         self.energy += Real::abs(power);
     }
 
+    /// Counts the error of a tick that ended the run, if it is a number.
+    pub fn note_last_error(&mut self, error: &Vector3<f64>) {
+        let squared = error.norm_squared();
+        self.max_error_squared = Real::max(squared, self.max_error_squared);
+    }
+
     /// Number of ticks seen.
     #[must_use]
     pub const fn ticks(&self) -> u64 {
@@ -154,7 +160,7 @@ impl Accumulator {
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a tick count is far below 2^53")]
     pub fn finish(&self, reaching: Option<bool>) -> Metrics {
-        let ticks = (self.ticks.max(1)) as f64;
+        let ticks = self.ticks as f64;
         let duration = ticks * self.period;
         let integral = |v: Vector3<f64>| PerAxisSum::of(v * self.period);
         let mean_square = self.ise / ticks;

@@ -224,6 +224,7 @@ impl<'a> Run<'a> {
         let tip = robot.tip_offset(sines.heading, &sines.posture) + Vector3::new(q.x, q.y, 0.0);
         let error = tip - reference.position;
         if let Some((state, value)) = runaway(&error, &nu) {
+            self.metrics.note_last_error(&error);
             return Ok(Some(Ending::Diverged { t, state, value }));
         }
         let output = match stack.update_with_sines(&mut self.control, &Input { q, nu, reference }, &sines) {
@@ -283,7 +284,13 @@ impl<'a> Run<'a> {
         let PlantState { q, nu, .. } = &self.state;
         let signals: &Signals<f64, 3> = &output.signals;
         let margin = &stack.gains().reaching_margin;
-        let required = required_gain((stack.robot(), plant.robot()), (q, nu), signals, &external, margin);
+        let required = required_gain(
+            (stack.robot(), plant.robot(), stack.learns()),
+            (q, nu),
+            signals,
+            &external,
+            margin,
+        );
         // A law has to offer what is asked for but for rounding.
         let met = required
             .channels()

@@ -112,7 +112,7 @@ fn a_bad_edit_is_refused_with_its_place() {
         }
     }
     let ended = folder.expect(2, &["--scenario", "square", "--controller", "pidd"]);
-    assert!(ended.stderr.contains("`bfsmc`"), "the laws there are:\n{}", ended.stderr);
+    assert!(ended.stderr.contains("bfsmc-thesis, bfsmc"), "the laws there are:\n{}", ended.stderr);
     holds_only(&folder, &[]);
 }
 

@@ -111,8 +111,7 @@ impl<T: Real, const I: usize, const O: usize, const R: usize> RuleBase<T, I, O, 
 /// map, and exactly 0 at 0.
 ///
 /// Cost: at most `4 n + 1` breakpoints and `n - 1` crossings between neighbouring ones for `n` firing output
-/// terms, about 1,300 instructions for [`THESIS`](super::THESIS) in `f64` on x86-64; no allocation, about 1 KiB of
-/// stack in `f64`.
+/// terms; no allocation, about 1 KiB of stack in `f64`. `cargo xtask bench-instructions` counts it.
 ///
 /// # Source
 /// E. H. Mamdani, S. Assilian, An experiment in linguistic synthesis with a fuzzy logic controller,

@@ -2,10 +2,8 @@
 //!
 //! ```text
 //! MamdaniTables --try_new--> Mamdani --from_engine--> Surface
-//! (const arrays              (min, max and            (uniform knots,
-//! in flash)                  exact centroid,          about 35
-//!                            about 1,300              instructions)
-//!                            instructions)
+//! (const arrays              (min, max and            (uniform knots:
+//! in flash)                  exact centroid)          a lookup)
 //! ```
 //!
 //! | item | role |

@@ -56,9 +56,9 @@ where
     /// | gain | default |
     /// | --- | --- |
     /// | switching | 15 % of the generalized force limits |
-    /// | boundary layer | k / (100/s x effective inertia): slope of a 100/s loop |
+    /// | boundary layer | k / (100/s x effective inertia): slope of a loop of 100/s, at most 0.1 per period |
     /// | fuzzy, `bfsmc-thesis` | equal to the switching gain; scale: 1 rad/s (m/s) is 1 |
-    /// | fuzzy, `bfsmc` | 30 % of the force limits; scale: slope of a 100/s loop at s = 0 |
+    /// | fuzzy, `bfsmc` | 30 % of the force limits; scale: the same slope at s = 0 |
     /// | observer bandwidth | 150/s, at most 0.2 per period |
     /// | learning limit | 50 % of the force limits |
     #[must_use]
@@ -125,7 +125,9 @@ impl<T: Real, const N: usize> Gains<T, N> {
         for value in self.fuzzy_scale.channels() {
             check::positive(value, "fuzzy_scale")?;
         }
-        check::non_negative(self.observer_bandwidth, "observer_bandwidth_1_s")?;
+        if check::non_negative(self.observer_bandwidth, "observer_bandwidth_1_s")? > T::ZERO {
+            check::positive(self.observer_bandwidth, "observer_bandwidth_1_s")?;
+        }
         for value in self.learning_limit.channels() {
             check::non_negative(value, "learning_limit")?;
         }

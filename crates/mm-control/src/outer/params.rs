@@ -1,6 +1,6 @@
 //! Gains of the outer loop.
 
-use mm_model::{ParamError, Real, Velocity, check};
+use mm_model::{Mechanism, ParamError, Real, Robot, Velocity, check};
 use nalgebra::Vector3;
 
 /// Gains of the outer loop and of the sliding surface: the same for all laws of a fair comparison.
@@ -46,6 +46,23 @@ impl<T: Real, const N: usize> Default for OuterParams<T, N> {
             damping_max: n(0.1),
             minimum_norm: false,
         }
+    }
+}
+
+impl<T: Real, const N: usize> OuterParams<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    /// The defaults for a robot: a small arm, whose manipulability is small everywhere, counts as near a singularity only below
+    /// 22 % of what it has in its rest posture.
+    #[must_use]
+    pub fn for_robot(robot: &Robot<T, N>) -> Self {
+        let rest = robot.manipulability_squared(&robot.posture(&robot.params().rest_posture));
+        let own = T::from_f64(0.22) * rest.max(T::ZERO).sqrt();
+        let default = Self::default();
+        let usual = default.manipulability_threshold;
+        let manipulability_threshold = if own > T::ZERO { own.min(usual) } else { usual };
+        Self { manipulability_threshold, ..default }
     }
 }
 

@@ -105,6 +105,8 @@ impl<T: Real> Robot<T, 3> {
         let p = self.params();
         let [link1, link2, link3] = &p.links;
         let [_, (lo2, hi2), (lo3, hi3)] = p.limits.joints;
+        // More than a turn adds nothing.
+        let hi2 = hi2.min(lo2 + T::TAU);
         let foot = p.mount_height + link1.length;
         let steps = 1024;
         let mut range: Option<(T, T)> = None;

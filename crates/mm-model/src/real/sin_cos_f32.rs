@@ -39,8 +39,8 @@ struct Reduced {
 /// Error: at most 0.84 ulp for every finite angle, which the tests prove by trying all of them. The sine is exactly
 /// odd, with `sin(-0) = -0`, the cosine exactly even. An infinite or NaN angle gives two NaN.
 ///
-/// Cost: about 80 instructions on a Cortex-M4F up to 199 rad, about 170 beyond; single-precision and integer
-/// operations only, none of them fused.
+/// Cost: about twice as much beyond 199 rad as up to there; single-precision and integer operations only, none of them
+/// fused.
 ///
 /// # Source
 /// W. J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980; M. H. Payne, R. N. Hanek, Radian

@@ -63,9 +63,9 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
     let improvement_percent = if exit == Exit::Done { improvement(&runs) } else { None };
     if common.json {
         let comparison = Comparison { runs: &runs, improvement_percent };
-        print(&serde_json::to_string(&comparison).unwrap_or_default());
+        exit = exit.max(print(&serde_json::to_string(&comparison).unwrap_or_default()));
     } else if !common.quiet {
-        print(&table::comparison(&runs, improvement_percent));
+        exit = exit.max(print(&table::comparison(&runs, improvement_percent)));
     }
     for (run, ended) in runs.iter().zip(endings) {
         complain_of(run, ended, &format!("{}: ", run.controller));

@@ -30,24 +30,25 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
     if exit == Exit::Done && !loaded.is_modified() {
         let missed = summary::missed(&loaded.file.expect, &summary.metrics);
         for miss in &missed {
-            complain(&format_args!("[expect] missed: {miss}"));
+            complain(&format_args!("error: {}: [expect] missed: {miss}", loaded.source_name()));
         }
         if !missed.is_empty() {
             exit = Exit::Missed;
         }
     }
-    report(common, &summary, exit);
-    Ok(exit)
+    Ok(exit.max(report(common, &summary, exit)))
 }
 
 /// Prints the summary in the form asked for.
-fn report(common: &Common, summary: &Summary, exit: Exit) {
-    if common.json {
-        print(&summary.to_json());
-    } else if !common.quiet {
-        print(&table::single(summary));
-    }
+fn report(common: &Common, summary: &Summary, exit: Exit) -> Exit {
     complain_of(summary, exit, "");
+    if common.json {
+        print(&summary.to_json())
+    } else if common.quiet {
+        Exit::Done
+    } else {
+        print(&table::single(summary))
+    }
 }
 
 /// Prints the warnings of a run; how it failed, the last of them, was said as an error already.

@@ -11,39 +11,33 @@ pub(super) fn scenario(command: &ScenarioCommand) -> Exit {
         ScenarioCommand::Show { name } => show(name),
         ScenarioCommand::Check { file } => match prepare(file, &[]) {
             Ok((loaded, _)) => {
-                print(&format!("{}: `{}` is well-formed", loaded.source_name(), loaded.name()));
-                Exit::Done
+                print(&format!("{}: `{}` is well-formed", loaded.source_name(), loaded.name()))
             }
             Err(exit) => exit,
         },
         ScenarioCommand::Schema => {
-            print(&serde_json::to_string_pretty(&scenario::schema()).unwrap_or_default());
-            Exit::Done
+            print(&serde_json::to_string_pretty(&scenario::schema()).unwrap_or_default())
         }
     }
 }
 
 fn list() -> Exit {
     let width = scenario::bundled().iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-    for (name, text) in scenario::bundled() {
+    let line = |(name, text): &(&str, &str)| {
         let description = scenario::from_text(name, text, &[])
             .map_or_else(|_| String::new(), |loaded| loaded.file.description.clone());
-        print(&format!("{name:width$}  {description}"));
-    }
-    Exit::Done
+        format!("{name:width$}  {description}")
+    };
+    print(&scenario::bundled().iter().map(line).collect::<Vec<_>>().join("\n"))
 }
 
 fn show(name: &str) -> Exit {
     let wanted = name.strip_suffix(".toml").unwrap_or(name);
     if let Some((_, text)) = scenario::bundled().iter().find(|(bundled, _)| *bundled == wanted) {
-        print(text.trim_end());
-        return Exit::Done;
+        return print(text.trim_end());
     }
     match scenario::load(name, &[]) {
-        Ok(loaded) => {
-            print(loaded.text().trim_end());
-            Exit::Done
-        }
+        Ok(loaded) => print(loaded.text().trim_end()),
         Err(error) => {
             complain(&error);
             Exit::Usage

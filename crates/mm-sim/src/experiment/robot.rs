@@ -93,8 +93,8 @@ pub(super) fn checked(loaded: &Loaded, params: RobotParams<f64, 3>) -> Result<Ro
         };
         loaded.problem(
             &key,
-            format!("`{name}` cannot be so"),
-            format!("a value that must {}", error.expectation()),
+            error.to_string(),
+            "a robot whose every joint moves some inertia in every posture",
         )
     })
 }

@@ -79,10 +79,10 @@ pub struct Metrics {
     pub max_speed_m_s: f64,
     /// Smallest manipulability.
     pub min_manipulability: f64,
-    /// 99th percentile of |s| by channel, after a tenth of the run, m/s and rad/s.
-    pub sliding_band: [f64; 5],
+    /// 99th percentile of |s| by channel after a tenth of the run, to 0.4 %, m/s and rad/s; none if the run ended before.
+    pub sliding_band: [Option<f64>; 5],
     /// How often a joint left its limits.
     pub joint_limit_crossings: u64,
-    /// Whether the law's authority met the reaching condition (4.44) wherever it was evaluated.
+    /// Whether the law's gain met the reaching condition (4.44) wherever it was evaluated, torque limits aside; none if nowhere.
     pub reaching_condition_met: Option<bool>,
 }

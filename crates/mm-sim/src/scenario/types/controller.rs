@@ -44,30 +44,30 @@ pub enum ControllerKind {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Outer {
-    /// Gain K on the position error: one number, or one for each of x, y, z. Default: see the law.
+    /// Gain K on the position error: one number, or one for each of x, y, z. Default: 18.
     pub position_gain_1_s: Option<PerAxis>,
-    /// Gain c on the integral of the velocity error: one number, or one a channel. Default: see the law.
+    /// Gain c on the integral of the velocity error: one number, or one a channel. Default: 20.
     pub sliding_gain_1_s: Option<PerChannel>,
     /// Weights of the pseudo-inverse, one a channel: a higher weight moves the channel less. Default: 1 each.
     #[schemars(with = "Option<[Positive; 5]>")]
     pub weights: Option<[f64; 5]>,
-    /// Pull of the null space towards the rest posture. Default: see the law.
+    /// Pull of the null space towards the rest posture. Default: 1.
     #[schemars(with = "Option<NonNegative>")]
     pub posture_gain_1_s: Option<f64>,
-    /// Push of the null space away from the joint limits. Default: see the law.
+    /// Push of the null space away from the joint limits. Default: 2.
     #[schemars(with = "Option<NonNegative>")]
     pub joint_limit_gain_rad_s: Option<f64>,
-    /// Distance from a joint limit at which the push begins. Default: see the law.
-    #[schemars(with = "Option<NonNegative>")]
+    /// Distance from a joint limit at which the push begins, at most half a joint's range. Default: 0.1.
+    #[schemars(with = "Option<Positive>")]
     pub joint_limit_margin_rad: Option<f64>,
-    /// Pull of the null space towards higher manipulability. Default: see the law.
+    /// Pull of the null space towards higher manipulability. Default: 0.01.
     #[schemars(with = "Option<NonNegative>")]
     pub manipulability_gain_rad_s: Option<f64>,
-    /// Damping of the pseudo-inverse at a singularity. Default: see the law.
+    /// Damping of the pseudo-inverse at a singularity. Default: 0.1.
     #[schemars(with = "Option<NonNegative>")]
     pub damping_max: Option<f64>,
-    /// Manipulability below which the damping begins. Default: see the law.
-    #[schemars(with = "Option<NonNegative>")]
+    /// Manipulability below which the damping begins. Default: 0.1, at most 22 % of that of the rest posture.
+    #[schemars(with = "Option<Positive>")]
     pub manipulability_threshold: Option<f64>,
     /// The plain pseudo-inverse (3.62): no weights, damping or null space.
     #[serde(default)]
@@ -107,9 +107,9 @@ pub struct Gains {
 #[schemars(inline)]
 pub enum PerAxis {
     /// The same for all.
-    Same(#[schemars(with = "NonNegative")] f64),
+    Same(#[schemars(with = "Positive")] f64),
     /// One each.
-    Each(#[schemars(with = "[NonNegative; 3]")] [f64; 3]),
+    Each(#[schemars(with = "[Positive; 3]")] [f64; 3]),
 }
 
 impl PerAxis {
