@@ -257,7 +257,19 @@ impl<T: Real, const N: usize> Robot<T, N> {
     #[must_use]
     #[inline]
     pub fn within_joint_limits(&self, joints: &[T; N]) -> bool {
-        joints.iter().zip(&self.params.limits.joints).all(|(&angle, &(lo, hi))| angle >= lo && angle <= hi)
+        self.each_within_limits(joints).into_iter().all(|within| within)
+    }
+
+    /// Whether each joint angle is within its limits.
+    #[must_use]
+    #[inline]
+    pub fn each_within_limits(&self, joints: &[T; N]) -> [bool; N] {
+        let mut within = [false; N];
+        let limits = &self.params.limits.joints;
+        for ((is, &angle), &(lo, hi)) in within.iter_mut().zip(joints).zip(limits) {
+            *is = angle >= lo && angle <= hi;
+        }
+        within
     }
 
     /// The torques cut to the limits of the actuators, and whether any of them was cut.

@@ -134,11 +134,7 @@ impl Imposed {
             let torque = robot.torque_of(&robot.inverse_dynamics(&state.q, &state.nu, &Velocity::zero()));
             let wheels = robot.wheel_rates(state.nu.forward, state.nu.yaw_rate);
             let manipulability_squared = robot.manipulability_squared(&sines.posture);
-            let within = |(angle, (lo, hi)): (f64, (f64, f64))| angle >= lo && angle <= hi;
-            let limits = robot.params().limits.joints;
-            let [q1, q2, q3] = state.q.joints;
-            let [l1, l2, l3] = limits;
-            let within_limits = [within((q1, l1)), within((q2, l2)), within((q3, l3))];
+            let within_limits = robot.each_within_limits(&state.q.joints);
             if crossed_at.is_none() && within_limits != [true; 3] {
                 crossed_at = Some(t);
             }

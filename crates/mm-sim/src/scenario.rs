@@ -124,8 +124,19 @@ pub fn from_text(name: &str, text: &str, sets: &[String]) -> Result<Loaded, Scen
     assemble(name, text, Path::new(""), sets)
 }
 
+/// The text of a file; what is wrong with it otherwise, with the place of the first byte that is no text.
+fn read_text(path: &Path) -> Result<String, String> {
+    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|error| {
+        let good = error.as_bytes().get(..error.utf8_error().valid_up_to()).unwrap_or_default();
+        let line = good.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let column = good.iter().rev().take_while(|&&byte| byte != b'\n').count() + 1;
+        format!("line {line}, column {column} (in bytes): not UTF-8; expected a TOML text")
+    })
+}
+
 fn read(path: &Path, what: &str, name: &str) -> Result<String, ScenarioError> {
-    std::fs::read_to_string(path).map_err(|error| {
+    read_text(path).map_err(|error| {
         let problem = Problem::without_place(format!("cannot read {what} `{name}`: {error}"));
         ScenarioError::new(&[], vec![problem])
     })
@@ -179,7 +190,7 @@ fn robot_file(
     let is_in_scenario = file.place.source == 0;
     let path = if is_in_scenario { folder.join(name) } else { PathBuf::from(name) };
     let shown = path.display().to_string();
-    let text = match std::fs::read_to_string(&path) {
+    let text = match read_text(&path) {
         Ok(text) => text,
         Err(error) => {
             let message = format!("cannot read `{shown}`: {error}");

@@ -248,10 +248,7 @@ impl<'a> Run<'a> {
         let PlantState { q, nu, .. } = &self.state;
         let robot = self.simulation.plant.robot();
         let wheels = robot.wheel_rates(nu.forward, nu.yaw_rate);
-        let [l1, l2, l3] = robot.params().limits.joints;
-        let [q1, q2, q3] = q.joints;
-        let within = |angle: f64, (lo, hi): (f64, f64)| angle >= lo && angle <= hi;
-        let within_limits = [within(q1, l1), within(q2, l2), within(q3, l3)];
+        let within_limits = robot.each_within_limits(&q.joints);
         if self.crossed_at.is_none() && within_limits != [true; 3] {
             self.crossed_at = Some(t);
         }

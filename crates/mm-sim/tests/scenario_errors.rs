@@ -353,3 +353,14 @@ fn a_hopeless_file_is_answered_briefly() {
         "thirty of 503: {shown}"
     );
 }
+
+#[test]
+fn a_file_that_is_no_text_is_refused_with_the_place_of_its_first_bad_byte() {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("not_text.toml");
+    std::fs::write(&path, b"name = \"a\"\nab\xff\xfe = 1\n").expect("a folder of our own");
+    let error = scenario::load(&path.display().to_string(), &[]).expect_err("bytes are no scenario");
+    let text = error.to_string();
+    for part in ["not_text.toml", "line 2, column 3", "not UTF-8", "expected a TOML text"] {
+        assert!(text.contains(part), "{part:?} is not in:\n{text}");
+    }
+}
