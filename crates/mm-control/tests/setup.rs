@@ -261,3 +261,17 @@ fn the_base_alone_is_a_robot() {
         assert!(left < 0.02, "{}: {left} m from the goal after four seconds", kind.name());
     }
 }
+
+#[test]
+fn a_joint_with_little_room_has_a_margin_that_fits() {
+    let mut narrow = RobotParams::<f64, 3>::thesis();
+    narrow.limits.joints[0] = (-0.05, 0.05);
+    let robot = Robot::try_new(narrow).unwrap();
+    let outer = OuterParams::for_robot(&robot);
+    assert!((outer.joint_limit_margin - 0.025).abs() < 1e-15, "{} rad", outer.joint_limit_margin);
+    let fitting = StackParams { outer, ..params() };
+    assert!(ControlStack::try_new(robot, LawKind::Bfsmc, fitting).is_ok(), "the default margin fits");
+    let refused = ControlStack::try_new(robot, LawKind::Bfsmc, params()).err();
+    let expected = SetupError::Param(ParamError::OutOfRange("joint_limit_margin_rad"));
+    assert_eq!(refused, Some(expected), "two margins that overlap are taken");
+}

@@ -54,7 +54,7 @@ where
     Robot<T, N>: Mechanism<T, N>,
 {
     /// The defaults for a robot: a small arm, whose manipulability is small everywhere, counts as near a singularity only below
-    /// 22 % of what it has in its rest posture.
+    /// 22 % of what it has in its rest posture, and a joint with little room is pushed off its limits in a quarter of it.
     #[must_use]
     pub fn for_robot(robot: &Robot<T, N>) -> Self {
         let rest = robot.manipulability_squared(&robot.posture(&robot.params().rest_posture));
@@ -62,7 +62,14 @@ where
         let default = Self::default();
         let usual = default.manipulability_threshold;
         let manipulability_threshold = if own > T::ZERO { own.min(usual) } else { usual };
-        Self { manipulability_threshold, ..default }
+        let quarter = T::HALF * T::HALF;
+        let joint_limit_margin = robot
+            .params()
+            .limits
+            .joints
+            .iter()
+            .fold(default.joint_limit_margin, |least, &(lo, hi)| least.min(quarter * (hi - lo)));
+        Self { manipulability_threshold, joint_limit_margin, ..default }
     }
 }
 

@@ -57,7 +57,7 @@ pub struct Outer {
     /// Push of the null space away from the joint limits. Default: 2.
     #[schemars(with = "Option<NonNegative>")]
     pub joint_limit_gain_rad_s: Option<f64>,
-    /// Distance from a joint limit at which the push begins, at most half a joint's range. Default: 0.1.
+    /// Distance from a joint limit at which the push begins, at most half a joint's range. Default: 0.1, at most a quarter of it.
     #[schemars(with = "Option<Positive>")]
     pub joint_limit_margin_rad: Option<f64>,
     /// Pull of the null space towards higher manipulability. Default: 0.01.
