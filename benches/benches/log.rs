@@ -2,22 +2,8 @@
 
 use anyhow::Result;
 use criterion::Criterion;
-use mm_model::Real;
+use mm_model::{Real, RobotParams};
 use mm_sim::log::{LogHeader, LogSample, LogWriter, RobotShape};
-
-const SHAPE: RobotShape = RobotShape {
-    wheel_radius_m: 0.06,
-    track_width_m: 0.2,
-    arm_offset_m: 0.06,
-    mount_height_m: 0.0,
-    link_lengths_m: [0.5; 3],
-    base_mass_kg: 50.0,
-    base_com_offset_m: 0.06,
-    base_yaw_inertia_kg_m2: 1.708,
-    link_masses_kg: [4.0, 6.0, 4.0],
-    link_com_m: [0.5; 3],
-    link_inertias_kg_m2: [[0.1; 3]; 3],
-};
 
 /// A sample whose numbers have low bits as random as those of a real run, so that they compress no better.
 fn sample(k: u32) -> LogSample {
@@ -60,7 +46,7 @@ fn main() -> Result<()> {
         versions: &[],
         seed: 0,
         controller: "none",
-        robot: SHAPE,
+        robot: RobotShape::from(&RobotParams::thesis()),
         reference: &[[0.0; 4]],
     };
     let mut writer = LogWriter::to_sink(std::io::sink(), "nowhere", &header)?;

@@ -18,19 +18,7 @@ use std::time::Duration;
 const SCENARIO: &str = "name = \"synthetic\"\n[simulation]\nduration_s = 2.0\n";
 
 fn shape() -> RobotShape {
-    RobotShape {
-        wheel_radius_m: 0.06,
-        track_width_m: 0.2,
-        arm_offset_m: 0.06,
-        mount_height_m: 0.0,
-        link_lengths_m: [0.5; 3],
-        base_mass_kg: 50.0,
-        base_com_offset_m: 0.06,
-        base_yaw_inertia_kg_m2: 1.708,
-        link_masses_kg: [4.0, 6.0, 4.0],
-        link_com_m: [0.5; 3],
-        link_inertias_kg_m2: [[0.1; 3]; 3],
-    }
+    RobotShape::from(&mm_model::RobotParams::thesis())
 }
 
 fn sample(t_s: f64) -> LogSample {

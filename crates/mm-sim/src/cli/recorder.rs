@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use mm_model::{Force, Real, Robot, RobotParams, Torque, Velocity};
+use mm_model::{Force, Real, Robot, Torque, Velocity};
 
 use super::interrupt;
 use crate::VERSION;
@@ -166,28 +166,10 @@ fn open_log(loaded: &Loaded, experiment: &Experiment, path: &Path) -> Result<Log
             versions: &[("mmsim", VERSION)],
             seed: loaded.file.simulation.seed,
             controller: controller_name(loaded.file.controller.kind),
-            robot: shape(experiment.plant().robot().params()),
+            robot: RobotShape::from(experiment.plant().robot().params()),
             reference: &reference,
         },
     )
-}
-
-fn shape(p: &RobotParams<f64, 3>) -> RobotShape {
-    RobotShape {
-        wheel_radius_m: p.wheel_radius,
-        track_width_m: p.track_width,
-        arm_offset_m: p.arm_offset,
-        mount_height_m: p.mount_height,
-        link_lengths_m: p.links.map(|link| link.length),
-        base_mass_kg: p.base_mass,
-        base_com_offset_m: p.base_com_offset,
-        base_yaw_inertia_kg_m2: p.base_yaw_inertia,
-        link_masses_kg: p.links.map(|link| link.mass),
-        link_com_m: p.links.map(|link| link.com),
-        link_inertias_kg_m2: p
-            .links
-            .map(|link| [link.axial_inertia, link.pitch_inertia, link.normal_inertia]),
-    }
 }
 
 fn torques(t: &Torque<f64, 3>) -> [f64; 5] {

@@ -2,6 +2,7 @@
 
 use super::frames::{BASE, Joint, joints};
 use core::f64::consts::FRAC_PI_2;
+use mm_model::RobotParams;
 use std::fmt::{self, Write};
 
 /// Length and width of the base's box, m; the model has no use for them.
@@ -38,6 +39,26 @@ pub struct RobotShape {
     pub link_com_m: [f64; 3],
     /// Inertias of each link about its axis, the pitch axis and the normal to both, kg m^2.
     pub link_inertias_kg_m2: [[f64; 3]; 3],
+}
+
+impl From<&RobotParams<f64, 3>> for RobotShape {
+    fn from(p: &RobotParams<f64, 3>) -> Self {
+        Self {
+            wheel_radius_m: p.wheel_radius,
+            track_width_m: p.track_width,
+            arm_offset_m: p.arm_offset,
+            mount_height_m: p.mount_height,
+            link_lengths_m: p.links.map(|link| link.length),
+            base_mass_kg: p.base_mass,
+            base_com_offset_m: p.base_com_offset,
+            base_yaw_inertia_kg_m2: p.base_yaw_inertia,
+            link_masses_kg: p.links.map(|link| link.mass),
+            link_com_m: p.links.map(|link| link.com),
+            link_inertias_kg_m2: p
+                .links
+                .map(|link| [link.axial_inertia, link.pitch_inertia, link.normal_inertia]),
+        }
+    }
 }
 
 /// Writes the URDF of a robot.
@@ -157,22 +178,9 @@ fn write_joint(text: &mut String, joint: &Joint) -> fmt::Result {
 pub(super) mod tests {
     use super::{RobotShape, urdf};
 
-    /// The dimensions and masses of the preset robot.
+    /// The preset robot.
     pub(in crate::log) fn thesis_like() -> RobotShape {
-        let masses = [4.0, 6.0, 4.0];
-        RobotShape {
-            wheel_radius_m: 0.06,
-            track_width_m: 0.2,
-            arm_offset_m: 0.06,
-            mount_height_m: 0.0,
-            link_lengths_m: [0.5; 3],
-            base_mass_kg: 50.0,
-            base_com_offset_m: 0.06,
-            base_yaw_inertia_kg_m2: 1.708,
-            link_masses_kg: masses,
-            link_com_m: [0.5; 3],
-            link_inertias_kg_m2: masses.map(|mass| [mass * 0.25 / 12.0; 3]),
-        }
+        RobotShape::from(&mm_model::RobotParams::thesis())
     }
 
     #[test]
