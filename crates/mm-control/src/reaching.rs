@@ -1,6 +1,6 @@
 //! The reaching condition (4.44), with what it forgets: which gain would have been enough.
 
-use mm_model::{Configuration, Force, Mechanism, Real, Robot, Velocity};
+use mm_model::{Force, Mechanism, Real, Robot, Velocity};
 
 use crate::Signals;
 
@@ -18,7 +18,7 @@ use crate::Signals;
 #[must_use]
 pub fn required_gain<T: Real, const N: usize>(
     (nominal, actual, learns): (&Robot<T, N>, &Robot<T, N>, bool),
-    (q, nu): (&Configuration<T, N>, &Velocity<T, N>),
+    (posture, nu): (&<Robot<T, N> as Mechanism<T, N>>::Posture, &Velocity<T, N>),
     signals: &Signals<T, N>,
     external: &Force<T, N>,
     margin: &Force<T, N>,
@@ -27,7 +27,7 @@ where
     Robot<T, N>: Mechanism<T, N>,
 {
     let equivalent = |robot: &Robot<T, N>| {
-        let inertia = robot.inertia(&robot.posture(&q.joints));
+        let inertia = robot.inertia(posture);
         robot
             .mass_product(&inertia, &signals.dnu_r)
             .plus(robot.coriolis_product(&inertia, nu, &signals.nu_r))

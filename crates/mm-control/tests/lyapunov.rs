@@ -86,7 +86,7 @@ fn run(kind: LawKind, gains: Gains<f64, 3>, nu: Velocity<f64, 3>, seconds: f64) 
             lag: plant.robot.jacobian(&q).product(&nu.minus(signals.nu_c)),
             required: required_gain(
                 (&nominal(), &actual(), stack.learns()),
-                (&q, &nu),
+                (&nominal().sines(&q).posture, &nu),
                 signals,
                 &disturbance(time),
                 &gains.reaching_margin,
@@ -204,7 +204,13 @@ fn the_bound_counts_gravity_and_the_external_force() {
     let mut signals = tick.output.signals;
     (signals.nu_r, signals.dnu_r) = (Velocity::zero(), Velocity::zero());
     let of = |robot: &Robot<f64, 3>, external: &Force<f64, 3>| {
-        required_gain((&nominal(), robot, false), (&q, &at_rest), &signals, external, &margin)
+        required_gain(
+            (&nominal(), robot, false),
+            (&nominal().sines(&q).posture, &at_rest),
+            &signals,
+            external,
+            &margin,
+        )
     };
     assert_eq!(of(&nominal(), &zero), margin, "a perfect model needs the margin alone");
     // At the rest posture g = g0 (2 + 3, 2) N m times 0.5 m and masses 6 + 4 and 4 kg; a quarter of it is missing.

@@ -278,12 +278,12 @@ impl<'a> Run<'a> {
     ) -> Sample<'b> {
         let Simulation { stack, plant, .. } = self.simulation;
         let external = plant.external(t, sines);
-        let PlantState { q, nu, .. } = &self.state;
+        let nu = &self.state.nu;
         let signals: &Signals<f64, 3> = &output.signals;
         let margin = &stack.gains().reaching_margin;
         let required = required_gain(
             (stack.robot(), plant.robot(), stack.learns()),
-            (q, nu),
+            (&sines.posture, nu),
             signals,
             &external,
             margin,
