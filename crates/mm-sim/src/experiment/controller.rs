@@ -1,0 +1,68 @@
+//! The control stack of a scenario: defaults that follow the robot, overridden by what the file gives.
+
+use mm_control::{ControlStack, Gains, LawKind, OuterParams, SetupError, StackParams};
+use mm_model::{Force, Robot, Velocity};
+use nalgebra::Vector3;
+
+use super::law_kind;
+use crate::scenario::{self, Loaded, ScenarioError};
+
+/// The control stack: defaults that follow the robot, overridden by what the file gives.
+pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStack<f64, 3>, ScenarioError> {
+    let file = &loaded.file;
+    let period = file.simulation.control_period_s;
+    let kind = law_kind(file.controller.kind).unwrap_or(LawKind::Bfsmc);
+    let given = &file.controller.gains;
+    let mut gains = match given.switching_gain {
+        None => Gains::for_robot(&robot, kind, period),
+        Some(k) => Gains::with_switching(&robot, kind, period, Force::from_channels(k.into_iter())),
+    };
+    let force = |raw: Option<[f64; 5]>, default| {
+        raw.map_or(default, |values| Force::from_channels(values.into_iter()))
+    };
+    let velocity = |raw: Option<[f64; 5]>, default| {
+        raw.map_or(default, |values| Velocity::from_channels(values.into_iter()))
+    };
+    gains.boundary_layer = velocity(given.boundary_layer, gains.boundary_layer);
+    gains.fuzzy = force(given.fuzzy_gain, gains.fuzzy);
+    gains.fuzzy_scale = velocity(given.fuzzy_scale, gains.fuzzy_scale);
+    gains.observer_bandwidth = given.observer_bandwidth_1_s.unwrap_or(gains.observer_bandwidth);
+    gains.learning_limit = force(given.learning_limit, gains.learning_limit);
+    gains.reaching_margin = force(given.reaching_margin, gains.reaching_margin);
+    let outer = outer(&robot, &file.controller.outer);
+    ControlStack::try_new(robot, kind, StackParams { period, outer, gains }).map_err(|error| {
+        let key = match error {
+            SetupError::Param(error) => {
+                let name = error.parameter();
+                let outer = name.ends_with("_1_s") && name != "observer_bandwidth_1_s"
+                    || ["weights", "damping_max", "manipulability_threshold"].contains(&name)
+                    || name.contains("_rad");
+                format!("controller.{}.{name}", if outer { "outer" } else { "gains" })
+            }
+            _ => "controller.gains".to_owned(),
+        };
+        loaded.problem(&key, error.to_string(), "gains that the law can work with")
+    })
+}
+
+fn outer(robot: &Robot<f64, 3>, raw: &scenario::Outer) -> OuterParams<f64, 3> {
+    let mut outer = OuterParams::for_robot(robot);
+    if let Some(gain) = raw.position_gain_1_s {
+        outer.position_gain = Vector3::from(gain.expand());
+    }
+    if let Some(gain) = raw.sliding_gain_1_s {
+        outer.sliding_gain = Velocity::from_channels(gain.expand().into_iter());
+    }
+    if let Some(weights) = raw.weights {
+        outer.weights = Velocity::from_channels(weights.into_iter());
+    }
+    let set = |field: &mut f64, value: Option<f64>| *field = value.unwrap_or(*field);
+    set(&mut outer.posture_gain, raw.posture_gain_1_s);
+    set(&mut outer.joint_limit_gain, raw.joint_limit_gain_rad_s);
+    set(&mut outer.joint_limit_margin, raw.joint_limit_margin_rad);
+    set(&mut outer.manipulability_gain, raw.manipulability_gain_rad_s);
+    set(&mut outer.manipulability_threshold, raw.manipulability_threshold);
+    set(&mut outer.damping_max, raw.damping_max);
+    outer.minimum_norm = raw.minimum_norm;
+    outer
+}

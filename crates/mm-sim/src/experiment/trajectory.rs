@@ -1,0 +1,65 @@
+//! The reference path of a scenario.
+
+use mm_model::Robot;
+use nalgebra::Vector3;
+
+use crate::scenario::{self, Loaded, Motion, ScenarioError};
+use crate::simulation::Clock;
+use crate::trajectory::{Path, Trajectory};
+
+/// The path that the file describes; none where it holds the start or imposes velocities.
+pub(super) fn path(trajectory: &scenario::Trajectory) -> Option<Path> {
+    let vector = |v: [f64; 3]| Vector3::from(v);
+    Some(match &trajectory.motion {
+        Motion::Square => Path::Square,
+        Motion::Sinusoid => Path::Sinusoid,
+        Motion::Spiral => Path::Spiral,
+        Motion::Step { from_m, by_m, at_s } => {
+            Path::Step { from: vector(*from_m), by: vector(*by_m), at: *at_s }
+        }
+        Motion::Line { from_m, velocity_m_s } => {
+            Path::Line { from: vector(*from_m), velocity: vector(*velocity_m_s) }
+        }
+        Motion::Circle { center_m, radius_m, speed_m_s, start_angle_rad } => Path::Circle {
+            center: vector(*center_m),
+            radius: *radius_m,
+            rate: speed_m_s / radius_m,
+            start: *start_angle_rad,
+        },
+        Motion::Hold { point_m } => Path::Hold(vector((*point_m)?)),
+        Motion::Velocities { .. } => return None,
+    })
+}
+
+/// Refuses a trajectory that leaves the heights that some posture within the joint limits reaches.
+pub(super) fn check_heights(
+    loaded: &Loaded,
+    robot: &Robot<f64, 3>,
+    trajectory: &Trajectory,
+    clock: &Clock,
+) -> Result<(), ScenarioError> {
+    if loaded.file.trajectory.allow_unreachable {
+        return Ok(());
+    }
+    let (low, high) = robot.tip_height_range();
+    let every = (clock.ticks / 10_000).max(1);
+    let step = usize::try_from(every).unwrap_or(1);
+    for tick in (0..clock.ticks).step_by(step).chain(clock.ticks.checked_sub(1)) {
+        let t = clock.time(tick);
+        let height = trajectory.at(t).position.z;
+        if height < low - 1e-9 || height > high + 1e-9 {
+            let key = match loaded.file.trajectory.motion {
+                Motion::Step { .. } => "trajectory.by_m",
+                Motion::Line { .. } => "trajectory.velocity_m_s",
+                Motion::Circle { .. } => "trajectory.center_m",
+                Motion::Hold { .. } => "trajectory.point_m",
+                _ => "trajectory.kind",
+            };
+            let message =
+                format!("at t = {t:.3} s the tip should be {height:.4} m high, which no posture reaches");
+            let expected = format!("a height from {low:.4} to {high:.4} m, or `allow_unreachable = true`");
+            return Err(loaded.problem(key, message, expected));
+        }
+    }
+    Ok(())
+}
