@@ -6,7 +6,7 @@ use crate::Signals;
 
 /// The switching gain that would surely have made V = s'M s/2 decrease, channel by channel, N and N m.
 ///
-/// Equation, with gap = (nominal less actual) of M nu_r' + C nu_r + g + friction:
+/// Equation, with gap = (the law's equivalent control) - (M nu_r' + C nu_r + g + friction of the actual robot):
 ///
 /// ```text
 /// k_i >= |gap_i| + |f_ext,i| + eta_i             for a law that does not learn
@@ -17,7 +17,7 @@ use crate::Signals;
 /// Only a simulator can evaluate it: it needs the `actual` robot and the `external` force.
 #[must_use]
 pub fn required_gain<T: Real, const N: usize>(
-    (nominal, actual, learns): (&Robot<T, N>, &Robot<T, N>, bool),
+    (actual, learns): (&Robot<T, N>, bool),
     (posture, nu): (&<Robot<T, N> as Mechanism<T, N>>::Posture, &Velocity<T, N>),
     signals: &Signals<T, N>,
     external: &Force<T, N>,
@@ -26,15 +26,13 @@ pub fn required_gain<T: Real, const N: usize>(
 where
     Robot<T, N>: Mechanism<T, N>,
 {
-    let equivalent = |robot: &Robot<T, N>| {
-        let inertia = robot.inertia(posture);
-        robot
-            .mass_product(&inertia, &signals.dnu_r)
-            .plus(robot.coriolis_product(&inertia, nu, &signals.nu_r))
-            .plus(robot.gravity(&inertia))
-            .plus(robot.friction(nu))
-    };
-    let gap = equivalent(nominal).minus(equivalent(actual));
+    let inertia = actual.inertia(posture);
+    let needed_by_actual = actual
+        .mass_product(&inertia, &signals.dnu_r)
+        .plus(actual.coriolis_product(&inertia, nu, &signals.nu_r))
+        .plus(actual.gravity(&inertia))
+        .plus(actual.friction(nu));
+    let gap = signals.equivalent.minus(needed_by_actual);
     let needed = if learns {
         gap.plus(*external).minus(signals.learned).map(Real::abs)
     } else {

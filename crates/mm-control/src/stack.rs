@@ -4,9 +4,9 @@ use mm_model::{Configuration, Force, Mechanism, Real, Robot, SinesOf, Torque, Ve
 use nalgebra::Vector3;
 
 use crate::fuzzy::Mamdani;
-use crate::laws::{Bfsmc, Gains, Law};
+use crate::laws::{Bfsmc, Drive, Gains, Law, Memory, Tracking};
 use crate::observer::{MomentumObserver, ObserverState};
-use crate::outer::{OuterLoop, OuterParams};
+use crate::outer::{OuterLoop, OuterOutput, OuterParams};
 use crate::{ControlError, SetupError};
 
 /// Where the tip should be, and how that moves: position, velocity and acceleration in the world frame.
@@ -57,6 +57,8 @@ pub struct Signals<T, const N: usize> {
     pub dnu_r: Velocity<T, N>,
     /// Sliding variable s = nu - nu_r.
     pub sliding: Velocity<T, N>,
+    /// The law's force as far as it takes the model as true; the rest opposes s.
+    pub equivalent: Force<T, N>,
     /// Force of the fuzzy system.
     pub fuzzy: Force<T, N>,
     /// Learned disturbance.
@@ -86,6 +88,7 @@ pub struct ControlState<T, const N: usize> {
     /// integral(nu - nu_c).
     integral: Velocity<T, N>,
     observer: ObserverState<T, N>,
+    memory: Memory<T, N>,
     /// Whether the last torque was limited.
     held: bool,
 }
@@ -137,7 +140,7 @@ pub struct StackParams<T, const N: usize> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ControlStack<T, const N: usize> {
+pub struct ControlStack<T: Real, const N: usize> {
     robot: Robot<T, N>,
     outer: OuterLoop<T, N>,
     law: Law<T, N>,
@@ -159,7 +162,7 @@ where
         kind: crate::LawKind,
         params: StackParams<T, N>,
     ) -> Result<Self, SetupError> {
-        let law = Law::try_new(kind, &params.gains)?;
+        let law = Law::try_new(kind, &robot, &params.gains)?;
         Self::with_law(robot, law, params)
     }
 
@@ -201,7 +204,12 @@ where
     /// The state before the first update: nothing integrated, nothing learned.
     #[must_use]
     pub fn initial_state(&self) -> ControlState<T, N> {
-        ControlState { integral: Velocity::zero(), observer: ObserverState::initial(), held: false }
+        ControlState {
+            integral: Velocity::zero(),
+            observer: ObserverState::initial(),
+            memory: Memory::None,
+            held: false,
+        }
     }
 
     /// The robot that the controller believes in.
@@ -279,40 +287,84 @@ where
     ) -> Result<Output<T, N>, ControlError> {
         let Input { q, nu, reference } = input;
         let robot = &self.robot;
-        let posture = &sines.posture;
         let outer = self.outer.evaluate(robot, (q, sines), nu, reference);
 
         let c = self.outer.params().sliding_gain;
         let lag = nu.minus(outer.nu_c);
         let nu_r = outer.nu_c.minus(c.zip(state.integral, |c, i| c * i));
         let dnu_r = outer.dnu_c.minus(c.zip(lag, |c, e| c * e));
-        let sliding = nu.minus(nu_r);
 
-        let inertia = robot.inertia(posture);
+        let inertia = robot.inertia(&sines.posture);
         let friction = robot.friction(nu);
-        let load = robot.gravity(&inertia).plus(friction);
-        let equivalent =
-            robot.mass_product(&inertia, &dnu_r).plus(robot.coriolis_product(&inertia, nu, &nu_r)).plus(load);
-        let robust = self.law.force(&sliding);
+        let lag_integral = state.integral;
+        let at = Tracking {
+            robot,
+            posture: &sines.posture,
+            inertia: &inertia,
+            nu,
+            dnu_c: &outer.dnu_c,
+            lag,
+            lag_integral: &lag_integral,
+            nu_r,
+            dnu_r,
+            sliding: nu.minus(nu_r),
+            friction,
+            load: robot.gravity(&inertia).plus(friction),
+            period: self.period,
+        };
+        match self.law.switching_force(&at.sliding) {
+            Some(robust) => self.settle(state, &input.q, &outer, &at, at.switching(robust)),
+            None => self.settle_model_based(state, &input.q, &outer, &at),
+        }
+    }
+
+    /// The laws that are no function of s alone, out of the way of those that are.
+    #[inline(never)]
+    fn settle_model_based(
+        &self,
+        state: &mut ControlState<T, N>,
+        q: &Configuration<T, N>,
+        outer: &OuterOutput<T, N>,
+        at: &Tracking<'_, T, N>,
+    ) -> Result<Output<T, N>, ControlError> {
+        let drive = self.law.drive(at, &state.memory);
+        self.settle(state, q, outer, at, drive)
+    }
+
+    /// Learned part, limits and the state after the update.
+    #[inline(always)]
+    fn settle(
+        &self,
+        state: &mut ControlState<T, N>,
+        q: &Configuration<T, N>,
+        outer: &OuterOutput<T, N>,
+        at: &Tracking<'_, T, N>,
+        drive: Drive<T, N>,
+    ) -> Result<Output<T, N>, ControlError> {
+        let Tracking { robot, inertia, nu, lag, .. } = at;
         let mut observer = state.observer;
         if let Some(learning) = &self.observer {
-            observer = learning.learn(&state.observer, &robot.mass_product(&inertia, nu), state.held);
+            observer = learning.learn(&state.observer, &robot.mass_product(inertia, nu), state.held);
         }
-        let force = equivalent.plus(robust.total).minus(*observer.learned());
+        let force = drive.force.minus(*observer.learned());
         let commanded = robot.torque_of(&force);
         let (torque, saturated) = robot.limit_torque(&commanded);
         if !(commanded.is_finite()) {
             return Err(ControlError::Overflow);
         }
         if let Some(learning) = &self.observer {
-            let own = robot.coriolis_transpose_product(&inertia, nu).minus(load);
+            let own = robot.coriolis_transpose_product(inertia, nu).minus(at.load);
             learning.account(&mut observer, &robot.force_of(&torque).plus(own));
         }
         let integral = if saturated { state.integral } else { state.integral.plus(lag.scaled(self.period)) };
-        if !(integral.is_finite() && observer.is_finite()) {
+        let is_finite = drive.memory.as_ref().is_none_or(Memory::is_finite);
+        if !(integral.is_finite() && observer.is_finite() && is_finite) {
             return Err(ControlError::Overflow);
         }
-        *state = ControlState { integral, observer, held: saturated };
+        if let (Some(memory), false) = (drive.memory, saturated) {
+            state.memory = memory;
+        }
+        (state.integral, state.observer, state.held) = (integral, observer, saturated);
         Ok(Output {
             torque,
             status: Status {
@@ -324,11 +376,12 @@ where
                 tip: outer.tip,
                 error: outer.error,
                 nu_c: outer.nu_c,
-                nu_r,
-                dnu_r,
-                sliding,
-                fuzzy: robust.fuzzy,
-                learned: *observer.learned(),
+                nu_r: at.nu_r,
+                dnu_r: at.dnu_r,
+                sliding: at.sliding,
+                equivalent: drive.equivalent,
+                fuzzy: drive.fuzzy,
+                learned: drive.learned.unwrap_or(*observer.learned()),
                 commanded,
                 manipulability_squared: outer.manipulability_squared,
                 damping_squared: outer.damping_squared,

@@ -21,7 +21,7 @@ use common::plant::Plant;
 use mm_control::{
     ControlStack, Gains, Input, LawKind, OuterParams, Output, Reference, StackParams, required_gain,
 };
-use mm_model::{Configuration, Force, Real, Robot, RobotParams, Velocity};
+use mm_model::{Configuration, Force, Mechanism, Real, Robot, RobotParams, Velocity};
 use nalgebra::Vector3;
 
 const PERIOD: f64 = 1e-3;
@@ -85,7 +85,7 @@ fn run(kind: LawKind, gains: Gains<f64, 3>, nu: Velocity<f64, 3>, seconds: f64) 
             lyapunov: plant.robot.kinetic_energy(&q, &signals.sliding),
             lag: plant.robot.jacobian(&q).product(&nu.minus(signals.nu_c)),
             required: required_gain(
-                (&nominal(), &actual(), stack.learns()),
+                (&actual(), stack.learns()),
                 (&nominal().sines(&q).posture, &nu),
                 signals,
                 &disturbance(time),
@@ -111,9 +111,9 @@ fn band(gains: &Gains<f64, 3>) -> f64 {
     let signs = |i: u32| (0..5).map(move |bit| if (i >> bit) & 1 == 1 { 1.0 } else { -1.0 });
     let energy = |i: u32| {
         let k = Force::from_channels(gains.switching.channels().zip(signs(i)).map(|(k, sign)| k * sign));
-        let inertia = mm_model::Mechanism::posture(&actual(), &q.joints);
-        let inertia = mm_model::Mechanism::inertia(&actual(), &inertia);
-        mm_model::Mechanism::solve(&actual(), &inertia, &k).power(&k)
+        let inertia = Mechanism::posture(&actual(), &q.joints);
+        let inertia = Mechanism::inertia(&actual(), &inertia);
+        Mechanism::solve(&actual(), &inertia, &k).power(&k)
     };
     2.0 * PERIOD * PERIOD * (0..32).map(energy).fold(0.0, f64::max)
 }
@@ -203,14 +203,9 @@ fn the_bound_counts_gravity_and_the_external_force() {
     let (zero, margin) = (Force::zero(), Force::splat(0.5));
     let mut signals = tick.output.signals;
     (signals.nu_r, signals.dnu_r) = (Velocity::zero(), Velocity::zero());
+    signals.equivalent = nominal().gravity(&nominal().inertia(&nominal().sines(&q).posture));
     let of = |robot: &Robot<f64, 3>, external: &Force<f64, 3>| {
-        required_gain(
-            (&nominal(), robot, false),
-            (&nominal().sines(&q).posture, &at_rest),
-            &signals,
-            external,
-            &margin,
-        )
+        required_gain((robot, false), (&nominal().sines(&q).posture, &at_rest), &signals, external, &margin)
     };
     assert_eq!(of(&nominal(), &zero), margin, "a perfect model needs the margin alone");
     // At the rest posture g = g0 (2 + 3, 2) N m times 0.5 m and masses 6 + 4 and 4 kg; a quarter of it is missing.

@@ -126,7 +126,7 @@ fn errors_read_as_sentences() {
     let mut mute = SMOOTH;
     mute.output_terms = [MembershipFunction::from_triangle([-1.0, 0.0, 1.0]); 7];
     let law = Law::Bfsmc(Bfsmc::with_rules(&params().gains, &mute.engine().unwrap()).unwrap());
-    assert!(law.authority().channels().all(|k| k.abs() < 1e-9), "mute rules have an authority");
+    assert!(law.authority().unwrap().channels().all(|k| k.abs() < 1e-9), "mute rules have an authority");
 }
 
 /// The reference of the closed loops: a tip that sets off smoothly, 0.2 m/s^2 and 0.1 m/s^2.

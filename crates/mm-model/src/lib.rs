@@ -43,6 +43,7 @@ mod angle;
 mod arm;
 mod base_only;
 mod blocks;
+mod bodies;
 mod error;
 mod mass;
 mod mechanism;

@@ -24,7 +24,7 @@ use crate::{
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Robot<T, const N: usize> {
-    params: RobotParams<T, N>,
+    pub(crate) params: RobotParams<T, N>,
     pub(crate) lumped: Lumped<T>,
 }
 
@@ -66,7 +66,7 @@ pub(crate) struct Lumped<T> {
 }
 
 impl<T: Real> Lumped<T> {
-    fn of<const N: usize>(p: &RobotParams<T, N>) -> Self {
+    pub(crate) fn of<const N: usize>(p: &RobotParams<T, N>) -> Self {
         let sq = |x: T| x * x;
         let arm_mass = p.links.iter().fold(T::ZERO, |sum, link| sum + link.mass);
         let mass = p.base_mass + arm_mass;

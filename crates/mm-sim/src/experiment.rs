@@ -109,6 +109,12 @@ pub const fn law_kind(kind: ControllerKind) -> Option<LawKind> {
         ControllerKind::BsmcSat => Some(LawKind::BsmcSat),
         ControllerKind::BfsmcThesis => Some(LawKind::BfsmcThesis),
         ControllerKind::Bfsmc => Some(LawKind::Bfsmc),
+        ControllerKind::Ctc => Some(LawKind::Ctc),
+        ControllerKind::Pid => Some(LawKind::Pid),
+        ControllerKind::Lqr => Some(LawKind::Lqr),
+        ControllerKind::SmcDecentralized => Some(LawKind::SmcDecentralized),
+        ControllerKind::BacksteppingAdaptive => Some(LawKind::BacksteppingAdaptive),
+        ControllerKind::SuperTwisting => Some(LawKind::SuperTwisting),
         ControllerKind::None => None,
     }
 }

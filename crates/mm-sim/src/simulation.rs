@@ -191,7 +191,7 @@ struct Run<'a> {
     state: PlantState,
     metrics: Accumulator,
     digest: Digest,
-    authority: Force<f64, 3>,
+    authority: Option<Force<f64, 3>>,
     /// Whether the reaching condition held at every sample; none before the first.
     reaching: Option<bool>,
     crossed_at: Option<f64>,
@@ -281,19 +281,16 @@ impl<'a> Run<'a> {
         let nu = &self.state.nu;
         let signals: &Signals<f64, 3> = &output.signals;
         let margin = &stack.gains().reaching_margin;
-        let required = required_gain(
-            (stack.robot(), plant.robot(), stack.learns()),
-            (&sines.posture, nu),
-            signals,
-            &external,
-            margin,
-        );
-        // A law has to offer what is asked for but for rounding.
-        let met = required
-            .channels()
-            .zip(self.authority.channels())
-            .all(|(needed, offered)| needed <= offered + 1e-9 * (1.0 + offered));
-        self.reaching = Some(met && self.reaching.unwrap_or(true));
+        let required =
+            required_gain((plant.robot(), stack.learns()), (&sines.posture, nu), signals, &external, margin);
+        if let Some(authority) = &self.authority {
+            // A law has to offer what is asked for but for rounding.
+            let met = required
+                .channels()
+                .zip(authority.channels())
+                .all(|(needed, offered)| needed <= offered + 1e-9 * (1.0 + offered));
+            self.reaching = Some(met && self.reaching.unwrap_or(true));
+        }
         Sample {
             t,
             state: &self.state,

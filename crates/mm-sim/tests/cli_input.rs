@@ -100,7 +100,7 @@ fn a_bad_edit_is_refused_with_its_place() {
         ("plant.mass_scale=nan", "--set:1:18", "not a finite number"),
         ("simulation.durations=1", "--set:1:1", "duration_s"),
         ("nothing", "--set:1:1", "KEY=VALUE"),
-        ("controller.kind=pid", "--set:1:17", "`bfsmc`"),
+        ("controller.kind=pidd", "--set:1:17", "`pid`"),
         ("trajectory.kind=\"none\"", "--set:1:17", "`square`"),
         ("robot.link.0.mass_kg=0", "--set:1:22", "expected a number above 0"),
         ("initial.base_pose=[0, 0, 0]\"", "--set:1:19", "an array"),

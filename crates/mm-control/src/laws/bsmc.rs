@@ -16,7 +16,6 @@ pub struct Bsmc<T, const N: usize> {
 
 impl<T: Real, const N: usize> Bsmc<T, N> {
     pub(super) fn try_new(gains: &Gains<T, N>) -> Result<Self, ParamError> {
-        gains.check()?;
         Ok(Self { gain: gains.switching })
     }
 

@@ -19,7 +19,6 @@ pub struct BsmcSat<T, const N: usize> {
 
 impl<T: Real, const N: usize> BsmcSat<T, N> {
     pub(super) fn try_new(gains: &Gains<T, N>) -> Result<Self, ParamError> {
-        gains.check()?;
         Ok(Self { gain: gains.switching, per_width: gains.boundary_layer.map(|width| T::ONE / width) })
     }
 

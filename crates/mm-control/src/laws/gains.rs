@@ -42,6 +42,28 @@ pub struct Gains<T, const N: usize> {
     pub learning_limit: Force<T, N>,
     /// eta: margin asked of the reaching condition (4.44), N and N m.
     pub reaching_margin: Force<T, N>,
+    /// Gain on nu - nu_c (`ctc`, `pid`) or, with the effective inertia, on s (`backstepping-adaptive`), 1/s.
+    pub damping: Velocity<T, N>,
+    /// Gain on integral(nu - nu_c), 1/s^2.
+    pub stiffness: Velocity<T, N>,
+    /// Gain on the integral of that, of `pid`, 1/s^3.
+    pub integral: Velocity<T, N>,
+    /// Acceptable integral(nu - nu_c) of `lqr`, m and rad.
+    pub acceptable_position: Velocity<T, N>,
+    /// Acceptable nu - nu_c of `lqr`, m/s and rad/s.
+    pub acceptable_velocity: Velocity<T, N>,
+    /// Acceptable force of `lqr`, N and N m.
+    pub acceptable_force: Force<T, N>,
+    /// gamma: adaptation of the bodies' factors, 1/J.
+    pub body_adaptation: T,
+    /// Least and largest factor on a body's inertia.
+    pub body_factor: (T, T),
+    /// Adaptation of the learned force, with the effective inertia, 1/s^2.
+    pub force_adaptation: T,
+    /// k1 of `super-twisting`, N (m/s)^-1/2 and N m (rad/s)^-1/2.
+    pub twisting: Force<T, N>,
+    /// k2 of `super-twisting`, N/s and N m/s.
+    pub twisting_rate: Force<T, N>,
 }
 
 impl<T: Real, const N: usize> Gains<T, N>
@@ -61,6 +83,11 @@ where
     /// | fuzzy, `bfsmc` | 30 % of the force limits; scale: the same slope at s = 0 |
     /// | observer bandwidth | 150/s, at most 0.2 per period |
     /// | learning limit | 50 % of the force limits |
+    /// | damping, stiffness, integral | b, b^2/4 for `ctc`; b, b^2/3, b^3/27 for `pid` (all poles equal), with b = 100/s, at most 0.1 per period |
+    /// | acceptable force, position, velocity | the force limits; those that alone would give the same b |
+    /// | body adaptation, its factors | 1/J, 0.5 to 2 |
+    /// | force adaptation | b^2/4 |
+    /// | twisting rate, twisting | twice the switching gain a second; 1.5 sqrt(effective inertia x rate) |
     #[must_use]
     pub fn for_robot(robot: &Robot<T, N>, kind: super::LawKind, period: T) -> Self {
         let switching = force_limits(robot).scaled(T::from_f64(0.15));
@@ -92,6 +119,11 @@ where
                 (fuzzy, width(fuzzy, n(SMOOTH_SLOPE_AT_ZERO)))
             }
         };
+        let quarter = bandwidth * bandwidth / n(4.0);
+        let stiffness = if kind == super::LawKind::Pid { bandwidth * bandwidth / n(3.0) } else { quarter };
+        let per_inertia =
+            |rate: T| Velocity::from_channels(most.zip(inertia, |f, m| f / (m * rate)).channels());
+        let twisting_rate = switching.scaled(n(2.0));
         Self {
             switching,
             boundary_layer: width(switching, T::ONE),
@@ -100,6 +132,17 @@ where
             observer_bandwidth: n(150.0).min(n(0.2) / period),
             learning_limit: most.scaled(T::HALF),
             reaching_margin: Force::zero(),
+            damping: Velocity::splat(bandwidth),
+            stiffness: Velocity::splat(stiffness),
+            integral: Velocity::splat(bandwidth * bandwidth * bandwidth / n(27.0)),
+            acceptable_position: per_inertia(quarter),
+            acceptable_velocity: per_inertia(bandwidth),
+            acceptable_force: most,
+            body_adaptation: T::ONE,
+            body_factor: (T::HALF, T::TWO),
+            force_adaptation: quarter,
+            twisting: twisting_rate.zip(inertia, |rate, m| n(1.5) * (rate * m).sqrt()),
+            twisting_rate,
         }
     }
 }
@@ -113,30 +156,44 @@ impl<T: Real, const N: usize> Gains<T, N> {
     /// # Errors
     /// Names the first that is infinite, NaN or of a sign that it cannot have.
     pub fn check(&self) -> Result<(), ParamError> {
-        for value in self.switching.channels() {
-            check::non_negative(value, "switching_gain")?;
-        }
-        for value in self.boundary_layer.channels() {
-            check::positive(value, "boundary_layer")?;
-        }
-        for value in self.fuzzy.channels() {
-            check::non_negative(value, "fuzzy_gain")?;
-        }
-        for value in self.fuzzy_scale.channels() {
-            check::positive(value, "fuzzy_scale")?;
-        }
+        let velocities = |vector: &Velocity<T, N>, test: Test<T>, name| {
+            vector.channels().try_for_each(|value| test(value, name).map(|_| ()))
+        };
+        let forces = |vector: &Force<T, N>, test: Test<T>, name| {
+            vector.channels().try_for_each(|value| test(value, name).map(|_| ()))
+        };
+        let (positive, non_negative): (Test<T>, Test<T>) = (check::positive, check::non_negative);
+        forces(&self.switching, non_negative, "switching_gain")?;
+        velocities(&self.boundary_layer, positive, "boundary_layer")?;
+        forces(&self.fuzzy, non_negative, "fuzzy_gain")?;
+        velocities(&self.fuzzy_scale, positive, "fuzzy_scale")?;
         if check::non_negative(self.observer_bandwidth, "observer_bandwidth_1_s")? > T::ZERO {
             check::positive(self.observer_bandwidth, "observer_bandwidth_1_s")?;
         }
-        for value in self.learning_limit.channels() {
-            check::non_negative(value, "learning_limit")?;
+        forces(&self.learning_limit, non_negative, "learning_limit")?;
+        forces(&self.reaching_margin, non_negative, "reaching_margin")?;
+        velocities(&self.damping, non_negative, "damping_gain_1_s")?;
+        velocities(&self.stiffness, non_negative, "stiffness_gain_1_s2")?;
+        velocities(&self.integral, non_negative, "integral_gain_1_s3")?;
+        velocities(&self.acceptable_position, positive, "acceptable_position")?;
+        velocities(&self.acceptable_velocity, positive, "acceptable_velocity")?;
+        forces(&self.acceptable_force, positive, "acceptable_force")?;
+        check::non_negative(self.body_adaptation, "body_adaptation_gain_1_j")?;
+        let (least, largest) = self.body_factor;
+        check::positive(least, "body_factor")?;
+        check::positive(largest, "body_factor")?;
+        if least > T::ONE || largest < T::ONE {
+            return Err(ParamError::OutOfRange("body_factor"));
         }
-        for value in self.reaching_margin.channels() {
-            check::non_negative(value, "reaching_margin")?;
-        }
+        check::non_negative(self.force_adaptation, "force_adaptation_gain_1_s2")?;
+        forces(&self.twisting, non_negative, "twisting_gain")?;
+        forces(&self.twisting_rate, non_negative, "twisting_rate_gain")?;
         Ok(())
     }
 }
+
+/// A check of one number that carries the name given.
+type Test<T> = fn(T, &'static str) -> Result<T, ParamError>;
 
 /// The largest generalized forces that the actuators make: force and moment of the wheels each on its own.
 fn force_limits<T: Real, const N: usize>(robot: &Robot<T, N>) -> Force<T, N>

@@ -1,20 +1,52 @@
-//! Switching laws: what the inner loop adds to the equivalent control to hold the sliding surface.
+//! Inner laws: what turns the velocity that the outer loop asks for into forces.
 //!
-//! All of them share the equivalent control M nu_r' + C nu_r + g + friction, the sliding variable s (actual minus desired)
-//! and the limits; they differ only in the force that they oppose to s. Each acts on generalized forces: applied to the
-//! torques directly, as (4.31) and (4.41) print it, s_v would drive the right wheel and s_omega the left.
+//! All of them share the outer loop, the sliding variable s (actual minus desired) and the limits. The switching laws and
+//! `super-twisting` add a force that opposes s to the same equivalent control M nu_r' + C nu_r + g + friction; the others make their
+//! own of the same quantities. Each acts on generalized forces: applied to the torques directly, as (4.31) and (4.41) print
+//! it, s_v would drive the right wheel and s_omega the left.
+//!
+//! | law | force besides friction | memory |
+//! | --- | --- | --- |
+//! | [`Bsmc`] | equivalent - k sign(s) | |
+//! | [`BsmcSat`] | equivalent - k sat(s/phi) | |
+//! | [`BfsmcThesis`] | equivalent - k sign(s) + k_f FIS(s/scale) | |
+//! | [`Bfsmc`] | equivalent + k_f phi(s/scale) - d_hat | momentum observer |
+//! | [`Ctc`] | M (nu_c' - Kv lag - Ki integral(lag)) + C nu + g | |
+//! | [`Pid`] | base: its own dynamics linearized, then PID; joints: PID | integral of the integral |
+//! | [`Lqr`] | M0 nu_c' + g0 - K1 integral(lag) - K2 lag | |
+//! | [`SmcDecentralized`] | equivalent without the coupling of base and arm - k sat(s/phi) | |
+//! | [`BacksteppingAdaptive`] | Y theta - K s - d_hat | body factors theta, d_hat |
+//! | [`SuperTwisting`] | equivalent - k1 sqrt(abs s) sign(s) + v | v |
+//!
+//! with lag = nu - nu_c.
 
+mod backstepping_adaptive;
 mod bfsmc;
 mod bfsmc_thesis;
 mod bsmc;
 mod bsmc_sat;
+mod ctc;
 mod gains;
+mod lqr;
+mod pid;
+mod riccati;
+mod smc_decentralized;
+mod super_twisting;
+mod tracking;
 
+pub use backstepping_adaptive::BacksteppingAdaptive;
 pub use bfsmc::Bfsmc;
 pub use bfsmc_thesis::BfsmcThesis;
 pub use bsmc::Bsmc;
 pub use bsmc_sat::BsmcSat;
+pub use ctc::Ctc;
 pub use gains::{EffectiveInertia, Gains};
+pub use lqr::Lqr;
+pub use pid::Pid;
+pub use riccati::{ChannelMatrix, StateFeedback};
+pub use smc_decentralized::SmcDecentralized;
+pub use super_twisting::SuperTwisting;
+pub(crate) use tracking::{Drive, Memory, Tracking};
 
 use mm_model::{Force, Mechanism, Real, Robot, Velocity};
 
@@ -32,11 +64,37 @@ pub enum LawKind {
     BfsmcThesis,
     /// Continuous fuzzy surface and a learned disturbance: the default.
     Bfsmc,
+    /// Computed torque.
+    Ctc,
+    /// PID, the base by partial feedback linearization.
+    Pid,
+    /// Linear quadratic regulator about the rest posture.
+    Lqr,
+    /// Sliding modes of base and arm apart.
+    SmcDecentralized,
+    /// Adaptive backstepping.
+    BacksteppingAdaptive,
+    /// Super-twisting, a sliding mode of second order.
+    SuperTwisting,
 }
 
 impl LawKind {
     /// Every law.
-    pub const ALL: [Self; 4] = [Self::Bsmc, Self::BsmcSat, Self::BfsmcThesis, Self::Bfsmc];
+    pub const ALL: [Self; 10] = [
+        Self::Bsmc,
+        Self::BsmcSat,
+        Self::BfsmcThesis,
+        Self::Bfsmc,
+        Self::Ctc,
+        Self::Pid,
+        Self::Lqr,
+        Self::SmcDecentralized,
+        Self::BacksteppingAdaptive,
+        Self::SuperTwisting,
+    ];
+
+    /// The laws that add a force of s alone to the equivalent control: the thesis's baseline, its fuzzy law and their kin.
+    pub const SWITCHING: [Self; 4] = [Self::Bsmc, Self::BsmcSat, Self::BfsmcThesis, Self::Bfsmc];
 
     /// The name used in scenarios and on the command line.
     #[must_use]
@@ -46,6 +104,12 @@ impl LawKind {
             Self::BsmcSat => "bsmc-sat",
             Self::BfsmcThesis => "bfsmc-thesis",
             Self::Bfsmc => "bfsmc",
+            Self::Ctc => "ctc",
+            Self::Pid => "pid",
+            Self::Lqr => "lqr",
+            Self::SmcDecentralized => "smc-decentralized",
+            Self::BacksteppingAdaptive => "backstepping-adaptive",
+            Self::SuperTwisting => "super-twisting",
         }
     }
 
@@ -58,7 +122,7 @@ impl LawKind {
 
 /// One of the laws, with its gains.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Law<T, const N: usize> {
+pub enum Law<T: Real, const N: usize> {
     /// See [`Bsmc`].
     Bsmc(Bsmc<T, N>),
     /// See [`BsmcSat`].
@@ -67,9 +131,21 @@ pub enum Law<T, const N: usize> {
     BfsmcThesis(BfsmcThesis<T, N>),
     /// See [`Bfsmc`].
     Bfsmc(Bfsmc<T, N>),
+    /// See [`Ctc`].
+    Ctc(Ctc<T, N>),
+    /// See [`Pid`].
+    Pid(Pid<T, N>),
+    /// See [`Lqr`].
+    Lqr(Lqr<T, N>),
+    /// See [`SmcDecentralized`].
+    SmcDecentralized(SmcDecentralized<T, N>),
+    /// See [`BacksteppingAdaptive`].
+    BacksteppingAdaptive(BacksteppingAdaptive<T, N>),
+    /// See [`SuperTwisting`].
+    SuperTwisting(SuperTwisting<T, N>),
 }
 
-/// The force of a law, and the part of it that its fuzzy system makes.
+/// The force of a switching law, and the part of it that its fuzzy system makes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RobustForce<T, const N: usize> {
     /// Force added to the equivalent control, N and N m.
@@ -82,16 +158,25 @@ impl<T: Real, const N: usize> Law<T, N>
 where
     Robot<T, N>: Mechanism<T, N>,
 {
-    /// The law of a kind with the given gains.
+    /// The law of a kind with the given gains, for a robot.
     ///
     /// # Errors
     /// The first gain that the law cannot work with.
-    pub fn try_new(kind: LawKind, gains: &Gains<T, N>) -> Result<Self, SetupError> {
+    pub fn try_new(kind: LawKind, robot: &Robot<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError> {
+        gains.check()?;
         Ok(match kind {
             LawKind::Bsmc => Self::Bsmc(Bsmc::try_new(gains)?),
             LawKind::BsmcSat => Self::BsmcSat(BsmcSat::try_new(gains)?),
             LawKind::BfsmcThesis => Self::BfsmcThesis(BfsmcThesis::try_new(gains)?),
             LawKind::Bfsmc => Self::Bfsmc(Bfsmc::try_new(gains)?),
+            LawKind::Ctc => Self::Ctc(Ctc::new(gains)),
+            LawKind::Pid => Self::Pid(Pid::new(robot, gains)),
+            LawKind::Lqr => Self::Lqr(Lqr::try_new(robot, gains)?),
+            LawKind::SmcDecentralized => Self::SmcDecentralized(SmcDecentralized::try_new(gains)?),
+            LawKind::BacksteppingAdaptive => {
+                Self::BacksteppingAdaptive(BacksteppingAdaptive::new(robot, gains))
+            }
+            LawKind::SuperTwisting => Self::SuperTwisting(SuperTwisting::new(gains)),
         })
     }
 
@@ -103,32 +188,59 @@ where
             Self::BsmcSat(_) => LawKind::BsmcSat,
             Self::BfsmcThesis(_) => LawKind::BfsmcThesis,
             Self::Bfsmc(_) => LawKind::Bfsmc,
+            Self::Ctc(_) => LawKind::Ctc,
+            Self::Pid(_) => LawKind::Pid,
+            Self::Lqr(_) => LawKind::Lqr,
+            Self::SmcDecentralized(_) => LawKind::SmcDecentralized,
+            Self::BacksteppingAdaptive(_) => LawKind::BacksteppingAdaptive,
+            Self::SuperTwisting(_) => LawKind::SuperTwisting,
         }
     }
 
-    /// The force that the law opposes to the sliding variable.
+    /// The force that a switching law opposes to the sliding variable; none for a law that is no function of s alone.
     #[must_use]
     #[inline]
-    pub fn force(&self, s: &Velocity<T, N>) -> RobustForce<T, N> {
+    pub fn switching_force(&self, s: &Velocity<T, N>) -> Option<RobustForce<T, N>> {
+        let plain = |total| Some(RobustForce { total, fuzzy: Force::zero() });
         match self {
-            Self::Bsmc(law) => RobustForce { total: law.force(s), fuzzy: Force::zero() },
-            Self::BsmcSat(law) => RobustForce { total: law.force(s), fuzzy: Force::zero() },
-            Self::BfsmcThesis(law) => law.force(s),
+            Self::Bsmc(law) => plain(law.force(s)),
+            Self::BsmcSat(law) => plain(law.force(s)),
+            Self::BfsmcThesis(law) => Some(law.force(s)),
             Self::Bfsmc(law) => {
                 let force = law.force(s);
-                RobustForce { total: force, fuzzy: force }
+                Some(RobustForce { total: force, fuzzy: force })
+            }
+            _ => None,
+        }
+    }
+
+    /// The force that the law applies, before the learned part of a momentum observer and the limits.
+    pub(crate) fn drive(&self, at: &Tracking<'_, T, N>, memory: &Memory<T, N>) -> Drive<T, N> {
+        match self {
+            Self::Ctc(law) => law.drive(at),
+            Self::Pid(law) => law.drive(at, memory),
+            Self::Lqr(law) => law.drive(at),
+            Self::SmcDecentralized(law) => law.drive(at),
+            Self::BacksteppingAdaptive(law) => law.drive(at, memory),
+            Self::SuperTwisting(law) => law.drive(at, memory),
+            Self::Bsmc(_) | Self::BsmcSat(_) | Self::BfsmcThesis(_) | Self::Bfsmc(_) => {
+                let none = RobustForce { total: Force::zero(), fuzzy: Force::zero() };
+                at.switching(self.switching_force(&at.sliding).unwrap_or(none))
             }
         }
     }
 
     /// Largest force that the law surely opposes to a large s, channel by channel: the k_i of the reaching condition (4.44).
+    /// None for a law without a switching gain.
     #[must_use]
-    pub fn authority(&self) -> Force<T, N> {
+    pub fn authority(&self) -> Option<Force<T, N>> {
         match self {
-            Self::Bsmc(law) => law.gain,
-            Self::BsmcSat(law) => law.gain,
-            Self::BfsmcThesis(law) => law.gain,
-            Self::Bfsmc(law) => law.authority(),
+            Self::Bsmc(law) => Some(law.gain),
+            Self::BsmcSat(law) => Some(law.gain),
+            Self::BfsmcThesis(law) => Some(law.gain),
+            Self::Bfsmc(law) => Some(law.authority()),
+            Self::SmcDecentralized(law) => Some(law.authority()),
+            _ => None,
         }
     }
 }

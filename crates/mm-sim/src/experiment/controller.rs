@@ -29,14 +29,24 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
     gains.observer_bandwidth = given.observer_bandwidth_1_s.unwrap_or(gains.observer_bandwidth);
     gains.learning_limit = force(given.learning_limit, gains.learning_limit);
     gains.reaching_margin = force(given.reaching_margin, gains.reaching_margin);
+    let each = |raw: Option<scenario::PerChannel>, default| velocity(raw.map(|raw| raw.expand()), default);
+    gains.damping = each(given.damping_gain_1_s, gains.damping);
+    gains.stiffness = each(given.stiffness_gain_1_s2, gains.stiffness);
+    gains.integral = each(given.integral_gain_1_s3, gains.integral);
+    gains.acceptable_position = velocity(given.acceptable_position, gains.acceptable_position);
+    gains.acceptable_velocity = velocity(given.acceptable_velocity, gains.acceptable_velocity);
+    gains.acceptable_force = force(given.acceptable_force, gains.acceptable_force);
+    gains.body_adaptation = given.body_adaptation_gain_1_j.unwrap_or(gains.body_adaptation);
+    gains.body_factor = given.body_factor.map_or(gains.body_factor, |[least, most]| (least, most));
+    gains.force_adaptation = given.force_adaptation_gain_1_s2.unwrap_or(gains.force_adaptation);
+    gains.twisting = force(given.twisting_gain, gains.twisting);
+    gains.twisting_rate = force(given.twisting_rate_gain, gains.twisting_rate);
     let outer = outer(&robot, &file.controller.outer);
     ControlStack::try_new(robot, kind, StackParams { period, outer, gains }).map_err(|error| {
         let key = match error {
             SetupError::Param(error) => {
                 let name = error.parameter();
-                let outer = name.ends_with("_1_s") && name != "observer_bandwidth_1_s"
-                    || ["weights", "damping_max", "manipulability_threshold"].contains(&name)
-                    || name.contains("_rad");
+                let outer = OUTER.contains(&name) || name.contains("_rad");
                 format!("controller.{}.{name}", if outer { "outer" } else { "gains" })
             }
             _ => "controller.gains".to_owned(),
@@ -44,6 +54,16 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
         loaded.problem(&key, error.to_string(), "gains that the law can work with")
     })
 }
+
+/// Parameters of the outer loop; besides these, those with an angle in their unit.
+const OUTER: [&str; 6] = [
+    "position_gain_1_s",
+    "sliding_gain_1_s",
+    "posture_gain_1_s",
+    "weights",
+    "damping_max",
+    "manipulability_threshold",
+];
 
 fn outer(robot: &Robot<f64, 3>, raw: &scenario::Outer) -> OuterParams<f64, 3> {
     let mut outer = OuterParams::for_robot(robot);

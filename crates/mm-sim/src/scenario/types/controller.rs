@@ -36,6 +36,18 @@ pub enum ControllerKind {
     /// Backstepping and fuzzy sliding mode, continuous and learning.
     #[default]
     Bfsmc,
+    /// Computed torque.
+    Ctc,
+    /// Joints by PID, the base by PID after partial feedback linearization.
+    Pid,
+    /// Linear quadratic regulator about the rest posture.
+    Lqr,
+    /// Sliding modes of base and arm apart, their coupling a disturbance.
+    SmcDecentralized,
+    /// Adaptive backstepping: factors on the bodies' inertias and a force, learned on line.
+    BacksteppingAdaptive,
+    /// Super-twisting, a continuous sliding mode of second order.
+    SuperTwisting,
     /// No law: the velocities are imposed and the metrics are the difference from the analytic motion.
     None,
 }
@@ -99,6 +111,37 @@ pub struct Gains {
     /// Margin eta of the reaching condition: N, then N m. Default: see the law.
     #[schemars(with = "Option<[NonNegative; 5]>")]
     pub reaching_margin: Option<[f64; 5]>,
+    /// Gain on the velocity error nu - nu_c (`ctc`, `pid`) or on s (`backstepping-adaptive`): one number, or one a channel. Default:
+    /// see the law.
+    pub damping_gain_1_s: Option<PerChannel>,
+    /// Gain on the integral of the velocity error (`ctc`, `pid`): one number, or one a channel. Default: see the law.
+    pub stiffness_gain_1_s2: Option<PerChannel>,
+    /// Gain on the integral of that (`pid`): one number, or one a channel. Default: see the law.
+    pub integral_gain_1_s3: Option<PerChannel>,
+    /// Acceptable integral of the velocity error (`lqr`): m, then rad. Default: see the law.
+    #[schemars(with = "Option<[Positive; 5]>")]
+    pub acceptable_position: Option<[f64; 5]>,
+    /// Acceptable velocity error (`lqr`): m/s, then rad/s. Default: see the law.
+    #[schemars(with = "Option<[Positive; 5]>")]
+    pub acceptable_velocity: Option<[f64; 5]>,
+    /// Acceptable force (`lqr`): N, then N m. Default: see the law.
+    #[schemars(with = "Option<[Positive; 5]>")]
+    pub acceptable_force: Option<[f64; 5]>,
+    /// Adaptation of the bodies' inertias (`backstepping-adaptive`). Default: see the law.
+    #[schemars(with = "Option<NonNegative>")]
+    pub body_adaptation_gain_1_j: Option<f64>,
+    /// Least and largest factor on a body's inertia (`backstepping-adaptive`), around 1. Default: see the law.
+    #[schemars(with = "Option<[Positive; 2]>")]
+    pub body_factor: Option<[f64; 2]>,
+    /// Adaptation of the learned force (`backstepping-adaptive`). Default: see the law.
+    #[schemars(with = "Option<NonNegative>")]
+    pub force_adaptation_gain_1_s2: Option<f64>,
+    /// Gain k1 on the root of s (`super-twisting`): N, then N m, over the root of m/s or rad/s. Default: see the law.
+    #[schemars(with = "Option<[NonNegative; 5]>")]
+    pub twisting_gain: Option<[f64; 5]>,
+    /// Rate k2 of the integrated force (`super-twisting`): N/s, then N m/s. Default: see the law.
+    #[schemars(with = "Option<[NonNegative; 5]>")]
+    pub twisting_rate_gain: Option<[f64; 5]>,
 }
 
 /// One number for all three axes, or one for each of x, y, z.
