@@ -18,10 +18,11 @@ mod common {
 
 use common::random::Random;
 use mm_control::fuzzy::{FuzzyError, Mamdani, SMOOTH, THESIS};
+use mm_control::laws::Misprints;
 use mm_control::{
     Bfsmc, ControlStack, Gains, Input, Law, LawKind, OuterParams, Reference, SetupError, StackParams,
 };
-use mm_model::{Configuration, Force, Robot, RobotParams, Velocity};
+use mm_model::{Configuration, Force, Robot, RobotParams, Torque, Velocity};
 use nalgebra::Vector3;
 
 const PERIOD: f64 = 1e-3;
@@ -274,4 +275,28 @@ fn default_slopes_are_those_of_one_bandwidth() {
         assert!((a / (100.0 * m) - 1.0).abs() < 1e-9, "bsmc-sat: {}/s", a / m);
         assert!((b / (100.0 * m) - 1.0).abs() < 1e-3, "bfsmc: {}/s", b / m);
     }
+}
+
+#[test]
+fn misprints_turn_the_force_and_send_it_to_the_wheels() {
+    let gains = Gains::for_robot(&robot(), LawKind::BfsmcThesis, PERIOD);
+    let with = |sign, channels| {
+        let gains = Gains { misprints: Misprints { sign, channels }, ..gains };
+        Law::try_new(LawKind::BfsmcThesis, &robot(), &gains).unwrap()
+    };
+    let s = Velocity { forward: 0.2, yaw_rate: -0.3, joints: [0.1, -0.1, 0.4] };
+    let right = with(false, false).switching_force(&s).unwrap().total;
+    let turned = with(true, false).switching_force(&s).unwrap().total;
+    assert_eq!(turned, right.map(|f| -f), "every channel aids its s");
+    // What should be forces along forward and yaw are taken for torques of the right and the left wheel.
+    let torque = Torque { right: right.forward, left: right.yaw, joints: right.joints };
+    let diverted = with(false, true).switching_force(&s).unwrap().total;
+    for (got, expected) in diverted.channels().zip(robot().force_of(&torque).channels()) {
+        assert!((got - expected).abs() <= 1e-12 * expected.abs(), "{got} instead of {expected}");
+    }
+    assert!(with(false, false).authority().is_some(), "the mended law has a switching gain");
+    assert!(
+        with(true, false).authority().is_none() && with(false, true).authority().is_none(),
+        "no reaching"
+    );
 }

@@ -29,8 +29,8 @@ pub use docs::markdown;
 pub use schema::schema;
 pub use types::{
     AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget, Expect,
-    Friction, Gains, Initial, Integrator, Link, Motion, Outer, Peaks, PerAxis, PerChannel, Plant, Preset,
-    Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals, Trajectory,
+    Friction, Gains, Initial, Integrator, Link, Misprints, Motion, Outer, Peaks, PerAxis, PerChannel, Plant,
+    Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals, Trajectory,
 };
 
 /// The name that an argument of the command line has in messages.

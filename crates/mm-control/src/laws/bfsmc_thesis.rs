@@ -1,10 +1,19 @@
 //! `bfsmc-thesis`: sign plus the fuzzy system of Appendix C, as printed.
 
-use mm_model::{Force, Real, Velocity};
+use mm_model::{Force, Real, RobotParams, Velocity};
 
 use super::{Gains, RobustForce, channel_zip};
 use crate::SetupError;
 use crate::fuzzy::{FuzzySystem, RuleBase, THESIS};
+
+/// Readings of the printed equations that contradict its proof, to see what they do. None by default.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Misprints {
+    /// The error of (4.17), desired minus actual, in (4.30) and in the fuzzy system's input as printed: the switching force then aids s.
+    pub sign: bool,
+    /// The forces of (4.31) and (4.41) as torques: s_v drives the right wheel, s_omega the left one.
+    pub channels: bool,
+}
 
 /// The law of (4.33) and (4.41): f = -k sign(s) + k_f FIS(s / scale), with the rule base of Appendix C.
 ///
@@ -12,25 +21,37 @@ use crate::fuzzy::{FuzzySystem, RuleBase, THESIS};
 /// [`Bsmc`](super::Bsmc) holds a fortiori. It is kept literal because it shows what it does: its output jumps from +0.889 to
 /// -0.889 at s = 0 and falls off to 0.333 far away, so that near the surface it acts as a second relay and chatters more than
 /// sign alone, not less. The thesis gives no scale for its input; 1 m/s and 1 rad/s are the default.
+///
+/// [`Misprints`] puts back what the derivation here corrects; with them no reaching condition holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BfsmcThesis<T, const N: usize> {
-    pub(super) gain: Force<T, N>,
+    gain: Force<T, N>,
     fuzzy_gain: Force<T, N>,
     per_scale: Velocity<T, N>,
     rules: RuleBase<T, 8, 7, 8>,
+    misprints: Misprints,
+    /// 1/r and l/r, half the track over the wheel's radius: forces of torques at the wheels.
+    wheels: (T, T),
 }
 
 impl<T: Real, const N: usize> BfsmcThesis<T, N> {
-    pub(super) fn try_new(gains: &Gains<T, N>) -> Result<Self, SetupError> {
-        gains.check()?;
+    pub(super) fn try_new(robot: &RobotParams<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError> {
         let rules = THESIS.cast::<T>();
         rules.engine()?;
+        let per_radius = T::ONE / robot.wheel_radius;
         Ok(Self {
             gain: gains.switching,
             fuzzy_gain: gains.fuzzy,
             per_scale: gains.fuzzy_scale.map(|scale| T::ONE / scale),
             rules,
+            misprints: gains.misprints,
+            wheels: (per_radius, T::HALF * robot.track_width * per_radius),
         })
+    }
+
+    /// Largest force that surely opposes s; none where a misprint turns or diverts it.
+    pub(super) fn authority(&self) -> Option<Force<T, N>> {
+        (self.misprints == Misprints::default()).then_some(self.gain)
     }
 
     #[inline]
@@ -41,6 +62,16 @@ impl<T: Real, const N: usize> BfsmcThesis<T, N> {
             channel_zip(&scaled, &self.fuzzy_gain, |x, k| k * engine.evaluate(x))
         });
         let switching = channel_zip(s, &self.gain, |s, k| -(k * s.sign()));
-        RobustForce { total: switching.plus(fuzzy), fuzzy }
+        RobustForce { total: self.misprinted(switching.plus(fuzzy)), fuzzy: self.misprinted(fuzzy) }
+    }
+
+    fn misprinted(&self, force: Force<T, N>) -> Force<T, N> {
+        let Misprints { sign, channels } = self.misprints;
+        let Force { forward: right, yaw: left, joints } = if sign { force.map(|f| -f) } else { force };
+        if !channels {
+            return Force { forward: right, yaw: left, joints };
+        }
+        let (per_radius, lever) = self.wheels;
+        Force { forward: per_radius * (right + left), yaw: lever * (right - left), joints }
     }
 }

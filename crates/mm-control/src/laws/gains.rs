@@ -1,5 +1,6 @@
 //! The gains of all switching laws, with defaults that follow the robot.
 
+use super::Misprints;
 use mm_model::{Force, Mechanism, ParamError, Real, Robot, Torque, Velocity, check};
 
 /// Inertia that each channel feels while all others are free, 1/(M^-1)_ii, at the rest posture.
@@ -64,6 +65,8 @@ pub struct Gains<T, const N: usize> {
     pub twisting: Force<T, N>,
     /// k2 of `super-twisting`, N/s and N m/s.
     pub twisting_rate: Force<T, N>,
+    /// Misprints of the thesis that `bfsmc-thesis` shall keep.
+    pub misprints: Misprints,
 }
 
 impl<T: Real, const N: usize> Gains<T, N>
@@ -143,6 +146,7 @@ where
             force_adaptation: quarter,
             twisting: twisting_rate.zip(inertia, |rate, m| n(1.5) * (rate * m).sqrt()),
             twisting_rate,
+            misprints: Misprints::default(),
         }
     }
 }

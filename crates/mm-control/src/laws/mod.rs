@@ -36,7 +36,7 @@ mod tracking;
 
 pub use backstepping_adaptive::BacksteppingAdaptive;
 pub use bfsmc::Bfsmc;
-pub use bfsmc_thesis::BfsmcThesis;
+pub use bfsmc_thesis::{BfsmcThesis, Misprints};
 pub use bsmc::Bsmc;
 pub use bsmc_sat::BsmcSat;
 pub use ctc::Ctc;
@@ -167,7 +167,7 @@ where
         Ok(match kind {
             LawKind::Bsmc => Self::Bsmc(Bsmc::try_new(gains)?),
             LawKind::BsmcSat => Self::BsmcSat(BsmcSat::try_new(gains)?),
-            LawKind::BfsmcThesis => Self::BfsmcThesis(BfsmcThesis::try_new(gains)?),
+            LawKind::BfsmcThesis => Self::BfsmcThesis(BfsmcThesis::try_new(robot.params(), gains)?),
             LawKind::Bfsmc => Self::Bfsmc(Bfsmc::try_new(gains)?),
             LawKind::Ctc => Self::Ctc(Ctc::new(gains)),
             LawKind::Pid => Self::Pid(Pid::new(robot, gains)),
@@ -237,7 +237,7 @@ where
         match self {
             Self::Bsmc(law) => Some(law.gain),
             Self::BsmcSat(law) => Some(law.gain),
-            Self::BfsmcThesis(law) => Some(law.gain),
+            Self::BfsmcThesis(law) => law.authority(),
             Self::Bfsmc(law) => Some(law.authority()),
             Self::SmcDecentralized(law) => Some(law.authority()),
             _ => None,

@@ -1,5 +1,6 @@
 //! The control stack of a scenario: defaults that follow the robot, overridden by what the file gives.
 
+use mm_control::laws::Misprints;
 use mm_control::{ControlStack, Gains, LawKind, OuterParams, SetupError, StackParams};
 use mm_model::{Force, Robot, Velocity};
 use nalgebra::Vector3;
@@ -40,6 +41,8 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
     gains.body_factor = given.body_factor.map_or(gains.body_factor, |[least, most]| (least, most));
     gains.force_adaptation = given.force_adaptation_gain_1_s2.unwrap_or(gains.force_adaptation);
     gains.twisting = force(given.twisting_gain, gains.twisting);
+    let scenario::Misprints { sign, channels } = given.misprints;
+    gains.misprints = Misprints { sign, channels };
     gains.twisting_rate = force(given.twisting_rate_gain, gains.twisting_rate);
     let outer = outer(&robot, &file.controller.outer);
     ControlStack::try_new(robot, kind, StackParams { period, outer, gains }).map_err(|error| {

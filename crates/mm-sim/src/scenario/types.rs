@@ -15,7 +15,7 @@ use ranges::{NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use controller::{Controller, ControllerKind, Gains, Outer, PerAxis, PerChannel};
+pub use controller::{Controller, ControllerKind, Gains, Misprints, Outer, PerAxis, PerChannel};
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
 pub use robot::{Friction, Link, Plant, Preset, Robot, RobotFields};

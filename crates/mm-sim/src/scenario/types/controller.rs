@@ -142,6 +142,21 @@ pub struct Gains {
     /// Rate k2 of the integrated force (`super-twisting`): N/s, then N m/s. Default: see the law.
     #[schemars(with = "Option<[NonNegative; 5]>")]
     pub twisting_rate_gain: Option<[f64; 5]>,
+    /// Misprints of the thesis that `bfsmc-thesis` keeps, to see what they do; read literally, its equations do not fit its proof.
+    #[serde(default)]
+    pub misprints: Misprints,
+}
+
+/// Readings of the printed equations that contradict their proof.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Misprints {
+    /// The error of (4.17), desired minus actual, in (4.30) and in the fuzzy system's input: the switching force aids s.
+    #[serde(default)]
+    pub sign: bool,
+    /// The forces of (4.31) and (4.41) act as torques: s_v drives the right wheel, s_omega the left one.
+    #[serde(default)]
+    pub channels: bool,
 }
 
 /// One number for all three axes, or one for each of x, y, z.
