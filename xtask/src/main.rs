@@ -3,6 +3,7 @@
 //! Each job is a module; what they share is in [`shell`] (processes), [`parallel`] (threads) and [`table`] (output).
 
 mod ci;
+mod claim;
 mod count;
 mod grid;
 mod mmsim;
@@ -24,6 +25,7 @@ cargo xtask <job>
   targets             builds mm-model and mm-control for bare metal [--fallback: with Debian's compiler]
   scenarios           runs every bundled scenario and checks its [expect] [--mmsim FILE: with this command]
   grid                maps the gains of bsmc on square-compare into docs/grid.csv [--mmsim FILE]
+  claim               judges the thesis's claim on square-compare into docs/claim.csv [--mmsim FILE]
   bench-instructions  counts the instructions of each operation with callgrind [--json] [--target-cpu CPU]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
@@ -65,6 +67,12 @@ fn run() -> Result<ExitCode> {
             let command = arguments.value("--mmsim")?;
             arguments.finish()?;
             grid::run(&mmsim::Mmsim::find(command, mmsim::Profile::Release)?)?;
+            ExitCode::SUCCESS
+        }
+        "claim" => {
+            let command = arguments.value("--mmsim")?;
+            arguments.finish()?;
+            claim::run(&mmsim::Mmsim::find(command, mmsim::Profile::Release)?)?;
             ExitCode::SUCCESS
         }
         "bench-instructions" => {
