@@ -38,6 +38,7 @@ fn the_names_are_those_of_the_interface() {
         "spiral-disturbed",
         "square",
         "square-compare",
+        "square-smooth",
         "step-disturbed",
         "verify-circle",
         "verify-joint2",
@@ -77,6 +78,10 @@ fn spirals() {
 fn square() {
     let m = as_it_stands("square");
     assert!(m.itae_m_s2.sum <= 0.005, "ITAE {}", m.itae_m_s2.sum);
+    let smooth = as_it_stands("square-smooth");
+    // Only the printed square starts with a jump of speed.
+    let ratio = smooth.max_error_m / m.max_error_m;
+    assert!(ratio < 1e-3, "without jumps the largest error is {ratio:e} of that with them");
 }
 
 #[test]

@@ -259,6 +259,43 @@ fn rules_between_keys() {
 }
 
 #[test]
+fn ramps_of_the_reference() {
+    let with = |keys: &str| broken("speed_m_s = -0.3", &format!("speed_m_s = -0.3\n{keys}"));
+    let text = with("stop_at_s = 1.5");
+    let expected = "given without `trajectory.stop_ramp_s`";
+    fails(&text, &[], "trajectory.stop_at_s", "my.toml:17:13", &[expected, "expected both or none"]);
+    let text = with("start_ramp_s = 1\nstop_ramp_s = 0.75\nstop_at_s = 1.5");
+    let message = "rest at 1.5 s leaves no time for ramps of 1 and 0.75 s";
+    fails(
+        &text,
+        &[],
+        "trajectory.stop_at_s",
+        "my.toml:19:13",
+        &[message, "expected rest at 1.75 s or later"],
+    );
+    let text = with("start_ramp_s = 1\nstop_ramp_s = 1.5");
+    let message = "rest at 2 s leaves no time for ramps of 1 and 1.5 s";
+    fails(
+        &text,
+        &[],
+        "trajectory.stop_ramp_s",
+        "my.toml:18:15",
+        &[message, "expected rest at 2.5 s or later"],
+    );
+    for good in ["start_ramp_s = 1\nstop_ramp_s = 1", "stop_ramp_s = 1\nstop_at_s = 1", "stop_ramp_s = 0"] {
+        let accepted = read(&with(good), &[]);
+        assert!(accepted.is_ok(), "{good}: {:?}", accepted.err());
+    }
+    let text = "name = \"v\"\n[simulation]\nduration_s = 1\n[trajectory]\nkind = \"velocities\"\n\
+                segment = [{ until_s = 0.5 }]\nstop_ramp_s = 0.1\n";
+    let parts = ["no ramp goes with kind = \"velocities\"", "expected a motion along a path"];
+    fails(text, &[], "trajectory.stop_ramp_s", "my.toml:7:15", &parts);
+    let text = with("smoothing_s = 1");
+    let parts = ["not a key of kind = \"circle\"", "expected only with kind `square`"];
+    fails(&text, &[], "trajectory.smoothing_s", "my.toml:17:1", &parts);
+}
+
+#[test]
 fn unknown_metric() {
     let text = format!("{GOOD}[expect]\nitae_m_s.sum = {{ max = 1 }}\n");
     fails(&text, &[], "expect.itae_m_s", "my.toml:24:1", &["the nearest known name is `itae_m_s2`"]);

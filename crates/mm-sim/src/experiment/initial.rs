@@ -3,6 +3,7 @@
 use mm_model::{Configuration, Real, Robot, Velocity};
 use nalgebra::Vector3;
 
+use super::trajectory::stop;
 use crate::plant::PlantState;
 use crate::scenario::{Loaded, ScenarioError};
 use crate::trajectory::{Path, Trajectory};
@@ -25,10 +26,11 @@ pub(super) fn with_trajectory(
     path: Option<Path>,
 ) -> Result<(Trajectory, PlantState), ScenarioError> {
     let start_ramp = loaded.file.trajectory.start_ramp_s;
+    let stop = stop(&loaded.file);
     let mut start = given(loaded, robot);
     let Some(path) = path else {
         let path = Path::Hold(robot.tip_position(&start.q));
-        return Ok((Trajectory { path, start_ramp }, start));
+        return Ok((Trajectory { path, start_ramp, stop }, start));
     };
     if loaded.file.initial.base_pose.is_none() {
         let at = path.at(0.0);
@@ -39,5 +41,5 @@ pub(super) fn with_trajectory(
         start.q.x = at.position.x - offset.x;
         start.q.y = at.position.y - offset.y;
     }
-    Ok((Trajectory { path, start_ramp }, start))
+    Ok((Trajectory { path, start_ramp, stop }, start))
 }

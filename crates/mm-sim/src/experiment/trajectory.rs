@@ -5,13 +5,14 @@ use nalgebra::Vector3;
 
 use crate::scenario::{self, Loaded, Motion, ScenarioError};
 use crate::simulation::Clock;
-use crate::trajectory::{Path, Trajectory};
+use crate::trajectory::{Path, Stop, Trajectory};
 
 /// The path that the file describes; none where it holds the start or imposes velocities.
 pub(super) fn path(trajectory: &scenario::Trajectory) -> Option<Path> {
     let vector = |v: [f64; 3]| Vector3::from(v);
     Some(match &trajectory.motion {
-        Motion::Square => Path::Square,
+        Motion::Square { smoothing_s } if *smoothing_s > 0.0 => Path::SmoothSquare { window: *smoothing_s },
+        Motion::Square { .. } => Path::Square,
         Motion::Sinusoid => Path::Sinusoid,
         Motion::Spiral => Path::Spiral,
         Motion::Step { from_m, by_m, at_s } => {
@@ -29,6 +30,13 @@ pub(super) fn path(trajectory: &scenario::Trajectory) -> Option<Path> {
         Motion::Hold { point_m } => Path::Hold(vector((*point_m)?)),
         Motion::Velocities { .. } => return None,
     })
+}
+
+/// How the reference comes to rest; it does not unless a ramp is given.
+pub(super) fn stop(file: &scenario::ScenarioFile) -> Option<Stop> {
+    let ramp = file.trajectory.stop_ramp_s;
+    let at = file.trajectory.stop_at_s.unwrap_or(file.simulation.duration_s);
+    (ramp > 0.0).then_some(Stop { at, ramp })
 }
 
 /// Refuses a trajectory that leaves the heights that some posture within the joint limits reaches.

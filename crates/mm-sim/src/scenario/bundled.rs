@@ -18,6 +18,7 @@ static BUNDLED: &[(&str, &str)] = bundle![
     "sinusoid",
     "spiral",
     "square",
+    "square-smooth",
     "spiral-disturbed",
     "step-disturbed",
     "spiral-compare",

@@ -13,6 +13,13 @@ pub struct Trajectory {
     #[serde(default)]
     #[schemars(with = "NonNegative")]
     pub start_ramp_s: f64,
+    /// Time over which the reference comes to rest again; 0 does not stop it.
+    #[serde(default)]
+    #[schemars(with = "NonNegative")]
+    pub stop_ramp_s: f64,
+    /// When the reference rests, with `stop_ramp_s`. Default: at the end of the run.
+    #[schemars(with = "Option<Positive>")]
+    pub stop_at_s: Option<f64>,
     /// Runs although the arm cannot reach the reference's height.
     #[serde(default)]
     pub allow_unreachable: bool,
@@ -27,7 +34,13 @@ pub struct Trajectory {
 #[non_exhaustive]
 pub enum Motion {
     /// The rounded square wave of Appendix B, in the plane z = 0.5 m.
-    Square,
+    Square {
+        /// Time over which the motion is averaged, from exact constants: its joints are blended to continuous acceleration with
+        /// a bounded jerk, 0.2 m/s^3 for 0.5 s and inversely with the time. 0 leaves the printed square with its jumps.
+        #[serde(default)]
+        #[schemars(with = "NonNegative")]
+        smoothing_s: f64,
+    },
     /// The three-dimensional sinusoid (5.1) to (5.3).
     Sinusoid,
     /// The three-dimensional spiral (5.4) to (5.6).
