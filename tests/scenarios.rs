@@ -10,6 +10,7 @@
 use mm_sim::metrics::Metrics;
 use mm_sim::scenario;
 use mm_sim::summary;
+use mm_sim::trajectory::Path;
 use mm_tests::{build, closed, finished, load, measured};
 
 const LAWS: [&str; 4] = ["bsmc", "bsmc-sat", "bfsmc-thesis", "bfsmc"];
@@ -46,6 +47,7 @@ fn the_names_are_those_of_the_interface() {
         "verify-moving-base",
         "verify-reverse-circle",
         "verify-straight",
+        "waypoints",
     ] {
         assert!(names.contains(&name), "{name} is bundled, among {names:?}");
     }
@@ -63,6 +65,17 @@ fn sinusoid_and_step() {
     let m = as_it_stands("step-disturbed");
     // The jump is 0.245 m, and the tip never goes farther away than that.
     assert!(m.max_error_m <= 0.25, "{} m after the jump", m.max_error_m);
+}
+
+#[test]
+fn waypoints() {
+    let m = as_it_stands("waypoints");
+    assert!(m.max_speed_m_s <= 1.0, "the base keeps about to the tip's 0.5 m/s: {} m/s", m.max_speed_m_s);
+    let Path::Waypoints(motion) = closed(&load("waypoints", &[])).trajectory.path else {
+        panic!("a motion through points")
+    };
+    measured("waypoints: duration of the motion, s", motion.duration());
+    assert!(motion.duration() < 23.0, "rests for the last second: {} s", motion.duration());
 }
 
 #[test]

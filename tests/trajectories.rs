@@ -72,7 +72,7 @@ fn velocity_and_acceleration_are_derivatives() {
         for start_ramp in [0.0, 3.0] {
             // With a start ramp the motion also stops, from 90 to 94 s.
             let stop = (start_ramp > 0.0).then_some(Stop { at: 94.0, ramp: 4.0 });
-            let trajectory = Trajectory { path, start_ramp, stop };
+            let trajectory = Trajectory { path: path.clone(), start_ramp, stop };
             // On the path's own clock a ramp of T delays the joints by T/2; its own end is a joint of the third derivative.
             let mut joints: Vec<f64> = joints_of(&path).iter().map(|t| t + 0.5 * start_ramp).collect();
             joints.extend([0.0, start_ramp, 90.0, 94.0]);
@@ -165,7 +165,7 @@ fn the_square_runs_from_the_origin_through_four_hills_at_constant_speed() {
 fn a_ramp_starts_at_rest_and_joins_smoothly() {
     let ramp = 2.5;
     for (name, path) in paths() {
-        let trajectory = Trajectory { path, start_ramp: ramp, stop: None };
+        let trajectory = Trajectory { path: path.clone(), start_ramp: ramp, stop: None };
         let (start, on_path) = (trajectory.at(0.0), path.at(0.0));
         assert_eq!(start.position, on_path.position, "{name}: the ramp starts where the path does");
         let still = start.velocity.norm() + start.acceleration.norm();
@@ -188,9 +188,9 @@ fn a_ramp_starts_at_rest_and_joins_smoothly() {
 fn a_stop_is_a_start_run_backwards() {
     let (start_ramp, stop) = (2.0, Stop { at: 30.0, ramp: 5.0 });
     for (name, path) in paths() {
-        let trajectory = Trajectory { path, start_ramp, stop: Some(stop) };
+        let trajectory = Trajectory { path: path.clone(), start_ramp, stop: Some(stop) };
         let before = 30.0 - 5.0;
-        let free = Trajectory { path, start_ramp, stop: None };
+        let free = Trajectory { path: path.clone(), start_ramp, stop: None };
         for t in [0.5, 2.0, 10.0, before] {
             assert_eq!(trajectory.at(t), free.at(t), "{name}: nothing of the stop shows at {t} s");
         }

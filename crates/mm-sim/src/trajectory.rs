@@ -1,8 +1,13 @@
 //! Reference trajectories of the tip, with their first and second derivatives in closed form.
 
 mod ramps;
+mod scurve;
 mod smooth_square;
+mod spline;
 mod square;
+mod waypoints;
+
+use std::sync::Arc;
 
 use mm_control::Reference;
 use mm_model::Real;
@@ -10,9 +15,12 @@ use nalgebra::Vector3;
 
 use ramps::OwnTime;
 pub use ramps::Stop;
+pub use scurve::{Limits, SCurve};
+pub use spline::Spline;
+pub use waypoints::{Joined, MIN_DISTANCE, WaypointError, Waypoints};
 
 /// A path of the tip in time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Path {
     /// Appendix B of the thesis, literally: straights and arcs of radius 1 m at 0.31416 m/s.
     Square,
@@ -54,10 +62,12 @@ pub enum Path {
     },
     /// A fixed point.
     Hold(Vector3<f64>),
+    /// Through points, from rest to rest.
+    Waypoints(Arc<Waypoints>),
 }
 
 /// A path, started smoothly from rest and brought to rest again if asked to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     /// The path.
     pub path: Path,
@@ -115,6 +125,16 @@ impl Path {
                 }
             }
             Self::Hold(point) => fixed(*point),
+            Self::Waypoints(waypoints) => waypoints.at(t),
+        }
+    }
+
+    /// Direction in which the path sets out, not of unit length; zero where it does not move.
+    #[must_use]
+    pub fn departure(&self) -> Vector3<f64> {
+        match self {
+            Self::Waypoints(waypoints) => waypoints.departure(),
+            _ => self.at(0.0).velocity,
         }
     }
 }

@@ -19,6 +19,7 @@ static BUNDLED: &[(&str, &str)] = bundle![
     "spiral",
     "square",
     "square-smooth",
+    "waypoints",
     "spiral-disturbed",
     "step-disturbed",
     "spiral-compare",

@@ -16,6 +16,7 @@ pub(super) fn check(root: &Node) -> Vec<Problem> {
     joint_limits(root, "robot.link", &mut problems);
     segments(root, &mut problems);
     imposed(root, &mut problems);
+    waypoints(root, &mut problems);
     ramps(root, &mut problems);
     for (index, disturbance) in items(root, "disturbance").iter().enumerate() {
         one_disturbance(disturbance, index, &mut problems);
@@ -90,7 +91,11 @@ fn clock(root: &Node, problems: &mut Vec<Problem>) {
 }
 
 fn exclusive(root: &Node, problems: &mut Vec<Problem>) {
-    for (one, other) in [("robot.preset", "robot.file"), ("initial.base_pose", "initial.tip")] {
+    for (one, other) in [
+        ("robot.preset", "robot.file"),
+        ("initial.base_pose", "initial.tip"),
+        ("trajectory.points_m", "trajectory.file"),
+    ] {
         if root.find(one).is_some() && root.find(other).is_some() {
             problems.push(
                 Problem::new(other, format!("given together with `{one}`"), root.place_of(other))
@@ -145,17 +150,27 @@ fn imposed(root: &Node, problems: &mut Vec<Problem>) {
     }
 }
 
+fn waypoints(root: &Node, problems: &mut Vec<Problem>) {
+    let is_waypoints = root.find("trajectory.kind").and_then(Node::as_str) == Some("waypoints");
+    if is_waypoints && root.find("trajectory.points_m").or(root.find("trajectory.file")).is_none() {
+        let key = "trajectory.points_m";
+        problems.push(
+            Problem::new(key, "missing key", root.place_of(key)).expected("an array of points, or `file`"),
+        );
+    }
+}
+
 /// A stop needs its ramp and the time for both ramps; a motion that has its own beginning and end takes neither.
 fn ramps(root: &Node, problems: &mut Vec<Problem>) {
     let mut report = |key: &str, message: String, expected: String| {
         problems.push(Problem::new(key, message, root.place_of(key)).expected(expected));
     };
     let kind = root.find("trajectory.kind").and_then(Node::as_str);
-    if let Some(kind @ "velocities") = kind {
+    if let Some(kind @ ("velocities" | "waypoints")) = kind {
         for key in ["trajectory.start_ramp_s", "trajectory.stop_ramp_s", "trajectory.stop_at_s"] {
             if root.find(key).is_some() {
                 let message = format!("no ramp goes with kind = \"{kind}\"");
-                report(key, message, "a motion along a path".to_owned());
+                report(key, message, "none: the motion has its own beginning and end".to_owned());
             }
         }
         return;

@@ -80,12 +80,57 @@ pub enum Motion {
         /// The point, in the world frame. Default: the tip at the start.
         point_m: Option<[f64; 3]>,
     },
+    /// Points in the world frame, from rest to rest within limits of the tip's speed, acceleration and jerk; the tip waits at
+    /// the last one.
+    Waypoints {
+        /// The points in order, at least 2 and none twice in a row; excludes `file`.
+        #[serde(default)]
+        #[schemars(length(min = 2))]
+        points_m: Vec<[f64; 3]>,
+        /// A CSV file of points under the header `x_m,y_m,z_m`, or a TOML file whose one key is `points_m`, sought in the folder
+        /// of the scenario file; a name given by `--set` is sought from the working directory.
+        file: Option<String>,
+        /// How the points are joined.
+        #[serde(default)]
+        path: WaypointPath,
+        /// Largest speed.
+        #[schemars(with = "Positive")]
+        speed_m_s: f64,
+        /// Largest acceleration, along the path and across it together.
+        #[schemars(with = "Positive")]
+        acceleration_m_s2: f64,
+        /// Largest jerk.
+        #[schemars(with = "Positive")]
+        jerk_m_s3: f64,
+    },
     /// Velocities imposed on the robot, open loop; for the controller kind `none`.
     Velocities {
         /// The velocities, piece by piece; after the last piece the robot rests.
         #[schemars(length(min = 1))]
         segment: Vec<Segment>,
     },
+}
+
+/// How points are joined.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum WaypointPath {
+    /// One curve with continuous curvature, passed without a stop.
+    #[default]
+    Spline,
+    /// Straight lines, with a stop at each point.
+    Lines,
+}
+
+/// A file of points.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[expect(dead_code, reason = "what is read from the file goes where `trajectory.points_m` stands")]
+pub(in crate::scenario) struct WaypointFile {
+    /// The points in order, in the world frame.
+    #[schemars(length(min = 2))]
+    points_m: Vec<[f64; 3]>,
 }
 
 /// Constant velocities until a time.
