@@ -31,7 +31,11 @@ fn points_from_files_are_the_points_of_the_scenario() {
     write("path.toml", list);
     for name in ["path.csv", "dos.CSV", "path.toml"] {
         let spec = write("scenario.toml", &format!("{SCENARIO}file = \"{name}\"\n"));
-        let from_file = closed(&load(&spec, &[])).trajectory;
+        let loaded = load(&spec, &[]);
+        let text = std::fs::read_to_string(folder.join(name)).expect("written above");
+        let path = folder.join(name).display().to_string();
+        assert!(loaded.files().eq([(path.as_str(), text.as_str())]), "{name} goes into the log");
+        let from_file = closed(&loaded).trajectory;
         assert_eq!(from_file, inline, "{name} beside the scenario");
         let set = format!("trajectory.file={}", folder.join(name).display());
         let from_set = closed(&load_text("set", &format!("{SCENARIO}{list}"), &[&set])).trajectory;

@@ -60,6 +60,12 @@ impl Loaded {
         self.sources.first().map_or("", |source| &source.text)
     }
 
+    /// Returns the files that the scenario names, such as a robot or waypoints: each as it was found, and its text.
+    pub fn files(&self) -> impl Iterator<Item = (&str, &str)> {
+        let named = self.sources.iter().skip(1).filter(|source| source.name != SET_NAME);
+        named.map(|source| (source.name.as_str(), source.text.as_str()))
+    }
+
     /// Returns the scenario file as it was given.
     #[must_use]
     pub fn source_name(&self) -> &str {

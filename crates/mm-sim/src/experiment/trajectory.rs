@@ -31,7 +31,7 @@ pub(super) fn path(loaded: &Loaded) -> Result<Option<Path>, ScenarioError> {
         },
         Motion::Hold { point_m } => return Ok(point_m.map(|point| Path::Hold(vector(point)))),
         Motion::Waypoints { points_m, path, speed_m_s, acceleration_m_s2, jerk_m_s3, .. } => {
-            let points: Vec<Vector3<f64>> = points_m.iter().copied().map(Vector3::from).collect();
+            let points: Vec<Vector3<f64>> = points_m.iter().flatten().copied().map(Vector3::from).collect();
             let joined = match path {
                 scenario::WaypointPath::Spline => Joined::Spline,
                 scenario::WaypointPath::Lines => Joined::Lines,
@@ -109,6 +109,6 @@ pub(super) fn check_heights(
 fn waypoint_beyond(loaded: &Loaded, low: f64, high: f64) -> String {
     let all = "trajectory.points_m";
     let Motion::Waypoints { points_m, .. } = &loaded.file.trajectory.motion else { return all.to_owned() };
-    let beyond = points_m.iter().position(|[_, _, z]| *z < low - 1e-9 || *z > high + 1e-9);
+    let beyond = points_m.iter().flatten().position(|[_, _, z]| *z < low - 1e-9 || *z > high + 1e-9);
     beyond.map_or_else(|| all.to_owned(), |index| format!("{all}.{index}"))
 }

@@ -84,9 +84,8 @@ pub enum Motion {
     /// the last one.
     Waypoints {
         /// The points in order, at least 2 and none twice in a row; excludes `file`.
-        #[serde(default)]
         #[schemars(length(min = 2))]
-        points_m: Vec<[f64; 3]>,
+        points_m: Option<Vec<[f64; 3]>>,
         /// A CSV file of points under the header `x_m,y_m,z_m`, or a TOML file whose one key is `points_m`, sought in the folder
         /// of the scenario file; a name given by `--set` is sought from the working directory.
         file: Option<String>,
@@ -112,7 +111,7 @@ pub enum Motion {
 }
 
 /// How points are joined.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum WaypointPath {
