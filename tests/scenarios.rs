@@ -10,6 +10,7 @@
 use mm_sim::metrics::Metrics;
 use mm_sim::scenario;
 use mm_sim::summary;
+use mm_sim::trajectory::Path;
 use mm_tests::{build, closed, finished, load, measured};
 
 const LAWS: [&str; 4] = ["bsmc", "bsmc-sat", "bfsmc-thesis", "bfsmc"];
@@ -38,6 +39,7 @@ fn the_names_are_those_of_the_interface() {
         "spiral-disturbed",
         "square",
         "square-compare",
+        "square-smooth",
         "step-disturbed",
         "verify-circle",
         "verify-joint2",
@@ -45,6 +47,7 @@ fn the_names_are_those_of_the_interface() {
         "verify-moving-base",
         "verify-reverse-circle",
         "verify-straight",
+        "waypoints",
     ] {
         assert!(names.contains(&name), "{name} is bundled, among {names:?}");
     }
@@ -65,6 +68,17 @@ fn sinusoid_and_step() {
 }
 
 #[test]
+fn waypoints() {
+    let m = as_it_stands("waypoints");
+    assert!(m.max_speed_m_s <= 1.0, "the base keeps about to the tip's 0.5 m/s: {} m/s", m.max_speed_m_s);
+    let Path::Waypoints(motion) = closed(&load("waypoints", &[])).trajectory.path else {
+        panic!("a motion through points")
+    };
+    measured("waypoints: duration of the motion, s", motion.duration());
+    assert!(motion.duration() < 23.0, "rests for the last second: {} s", motion.duration());
+}
+
+#[test]
 fn spirals() {
     for name in ["spiral", "spiral-disturbed", "spiral-compare"] {
         let m = as_it_stands(name);
@@ -77,6 +91,10 @@ fn spirals() {
 fn square() {
     let m = as_it_stands("square");
     assert!(m.itae_m_s2.sum <= 0.005, "ITAE {}", m.itae_m_s2.sum);
+    let smooth = as_it_stands("square-smooth");
+    // Only the printed square starts with a jump of speed.
+    let ratio = smooth.max_error_m / m.max_error_m;
+    assert!(ratio < 1e-3, "without jumps the largest error is {ratio:e} of that with them");
 }
 
 #[test]

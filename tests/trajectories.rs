@@ -1,14 +1,15 @@
 //! References of the tip: position, velocity and acceleration belong together, and the curves are those of the thesis.
 //!
 //! Laws: velocity and acceleration are the derivatives of position; the square is that of Appendix B with its rounded constants,
-//! whose small jumps are known; a start ramp begins at rest and ends on the path with its velocity and acceleration.
+//! whose small jumps are known; a start ramp begins at rest and ends on the path with its velocity and acceleration; a stop is
+//! the same backwards.
 //! Why: the controller feeds velocity and acceleration forward, so that a slip in them is a tracking error.
 //! References: Richardson's extrapolation of central differences of position; curve points worked out by hand.
 //! Tolerances: 1e-10 for differences over 20 ms, whose truncation is h^4/480 of a fifth derivative below 0.1 and whose rounding
 //! is eps times 20 m over h; 1e-8 on a ramp, whose derivatives are up to a hundred times larger; a few eps for points by hand.
 
 use mm_control::Reference;
-use mm_sim::trajectory::{Path, Trajectory};
+use mm_sim::trajectory::{Path, Stop, Trajectory};
 use mm_tests::measured;
 use nalgebra::Vector3;
 
@@ -21,10 +22,14 @@ const JOINTS: [f64; 16] = [
     63.19683, 68.19683, 74.56301, 79.56301, 85.92919, 90.92919,
 ];
 
-/// Every kind of path.
-fn paths() -> [(&'static str, Path); 7] {
+/// Window of the smooth square, s.
+const WINDOW: f64 = 0.8;
+
+/// Every kind of path without a file of tests of its own.
+fn paths() -> [(&'static str, Path); 8] {
     [
         ("square", Path::Square),
+        ("smooth square", Path::SmoothSquare { window: WINDOW }),
         ("sinusoid", Path::Sinusoid),
         ("spiral", Path::Spiral),
         ("step", Path::Step { from: Vector3::new(0.5, 0.0, 0.5), by: Vector3::new(0.2, 0.1, 0.1), at: 7.0 }),
@@ -41,6 +46,10 @@ fn paths() -> [(&'static str, Path); 7] {
 fn joints_of(path: &Path) -> Vec<f64> {
     match path {
         Path::Square => JOINTS.to_vec(),
+        // The third derivative jumps at either end of each blend.
+        Path::SmoothSquare { window } => {
+            JOINTS.iter().flat_map(|t| [t - 0.5 * window, t + 0.5 * window]).collect()
+        }
         Path::Step { at, .. } => vec![*at],
         _ => Vec::new(),
     }
@@ -61,10 +70,12 @@ fn velocity_and_acceleration_are_derivatives() {
     let h = 0.02;
     for (name, path) in paths() {
         for start_ramp in [0.0, 3.0] {
-            let trajectory = Trajectory { path, start_ramp };
+            // With a start ramp the motion also stops, from 90 to 94 s.
+            let stop = (start_ramp > 0.0).then_some(Stop { at: 94.0, ramp: 4.0 });
+            let trajectory = Trajectory { path: path.clone(), start_ramp, stop };
             // On the path's own clock a ramp of T delays the joints by T/2; its own end is a joint of the third derivative.
             let mut joints: Vec<f64> = joints_of(&path).iter().map(|t| t + 0.5 * start_ramp).collect();
-            joints.extend([0.0, start_ramp]);
+            joints.extend([0.0, start_ramp, 90.0, 94.0]);
             let (mut worst_velocity, mut worst_acceleration) = (0.0_f64, 0.0_f64);
             for i in 1..1940_u32 {
                 let t = f64::from(i) * 0.0501;
@@ -154,7 +165,7 @@ fn the_square_runs_from_the_origin_through_four_hills_at_constant_speed() {
 fn a_ramp_starts_at_rest_and_joins_smoothly() {
     let ramp = 2.5;
     for (name, path) in paths() {
-        let trajectory = Trajectory { path, start_ramp: ramp };
+        let trajectory = Trajectory { path: path.clone(), start_ramp: ramp, stop: None };
         let (start, on_path) = (trajectory.at(0.0), path.at(0.0));
         assert_eq!(start.position, on_path.position, "{name}: the ramp starts where the path does");
         let still = start.velocity.norm() + start.acceleration.norm();
@@ -170,6 +181,34 @@ fn a_ramp_starts_at_rest_and_joins_smoothly() {
         let own = path.at(ramp * (0.125 - 0.031_25));
         assert!((half.position - own.position).norm() < 1e-15, "{name}: position half way up");
         assert!((half.velocity - own.velocity * 0.5).norm() < 1e-15, "{name}: half the speed half way up");
+    }
+}
+
+#[test]
+fn a_stop_is_a_start_run_backwards() {
+    let (start_ramp, stop) = (2.0, Stop { at: 30.0, ramp: 5.0 });
+    for (name, path) in paths() {
+        let trajectory = Trajectory { path: path.clone(), start_ramp, stop: Some(stop) };
+        let before = 30.0 - 5.0;
+        let free = Trajectory { path: path.clone(), start_ramp, stop: None };
+        for t in [0.5, 2.0, 10.0, before] {
+            assert_eq!(trajectory.at(t), free.at(t), "{name}: nothing of the stop shows at {t} s");
+        }
+        let jump = differ(&trajectory.at(before), &trajectory.at(before.next_up()));
+        assert!(jump.iter().all(|jump| *jump < 1e-13), "{name}: jumps {jump:?} where it begins to stop");
+        // Half way down, at u = 1/2: 5 (1/8 - 1/32) s of own time are left of all 30 - 1 - 2.5 s.
+        let half = trajectory.at(27.5);
+        let own = path.at(26.5 - 5.0 * (0.125 - 0.031_25));
+        assert!((half.position - own.position).norm() < 1e-14, "{name}: position half way down");
+        assert!((half.velocity - own.velocity * 0.5).norm() < 1e-15, "{name}: half the speed half way down");
+        for t in [30.0, 30.1, 1e6] {
+            let rest = trajectory.at(t);
+            assert_eq!(rest.position, path.at(26.5).position, "{name}: rests at {t} s");
+            let still = rest.velocity.norm() + rest.acceleration.norm();
+            assert!(still < 1e-300, "{name}: moves by {still:e} at {t} s");
+        }
+        let jump = differ(&trajectory.at(30.0_f64.next_down()), &trajectory.at(30.0));
+        assert!(jump.iter().all(|jump| *jump < 1e-13), "{name}: jumps {jump:?} where it comes to rest");
     }
 }
 

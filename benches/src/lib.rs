@@ -112,7 +112,7 @@ pub fn square(kind: LawKind, ticks: u64) -> Result<Simulation> {
     Ok(Simulation {
         stack: stack(kind)?,
         plant: Plant::new(robot, Disturbances::default(), PERIOD),
-        trajectory: Trajectory { path: Path::Square, start_ramp: 0.0 },
+        trajectory: Trajectory { path: Path::Square, start_ramp: 0.0, stop: None },
         initial: PlantState { q, nu: Velocity::zero(), travel: 0.0 },
         clock: Clock { period: PERIOD, substeps: 1, ticks, log_every: NO_SAMPLES },
     })

@@ -52,8 +52,7 @@ impl Experiment {
             let start = initial::given(loaded, &nominal);
             return Ok(Self::Open(Imposed::build(loaded, segment, (plant, clock), start)?));
         }
-        let (reference, initial) =
-            initial::with_trajectory(loaded, &nominal, trajectory::path(&file.trajectory))?;
+        let (reference, initial) = initial::with_trajectory(loaded, &nominal, trajectory::path(loaded)?)?;
         let stack = controller::stack(loaded, nominal)?;
         trajectory::check_heights(loaded, &actual, &reference, &clock)?;
         Ok(Self::Closed(Simulation { stack, plant, trajectory: reference, initial, clock }))

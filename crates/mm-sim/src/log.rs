@@ -12,8 +12,8 @@
 //! | `/control` | `mmsim_msgs/msg/Control` | every sample: everything the controller knew and did |
 //! | `/path` | `nav_msgs/msg/Path` | twice per simulated second: where the tip has been |
 //!
-//! Stamps are the scenario's time. The scenario's text (attachment `scenario.toml`) and what identifies the run
-//! (metadata `mmsim`) stand at the start of the file, so a run that is killed leaves them behind; the summary
+//! Stamps are the scenario's time. The scenario's text (attachment `scenario.toml`), those of the files that it names and what
+//! identifies the run (metadata `mmsim`) stand at the start of the file, so a run that is killed leaves them behind; the summary
 //! (attachment `summary.json`) and the outcome (metadata `mmsim.result`) stand at its end. A file without
 //! `mmsim.result` is that of a run that did not finish.
 

@@ -17,6 +17,7 @@ mod rules;
 mod schema;
 mod tree;
 mod types;
+mod waypoints;
 
 use std::path::{Path, PathBuf};
 
@@ -31,6 +32,7 @@ pub use types::{
     AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget, Expect,
     Friction, Gains, Initial, Integrator, Link, Misprints, Motion, Outer, Peaks, PerAxis, PerChannel, Plant,
     Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals, Trajectory,
+    WaypointPath,
 };
 
 /// The name that an argument of the command line has in messages.
@@ -57,6 +59,12 @@ impl Loaded {
     #[must_use]
     pub fn text(&self) -> &str {
         self.sources.first().map_or("", |source| &source.text)
+    }
+
+    /// Returns the files that the scenario names, such as a robot or waypoints: each as it was found, and its text.
+    pub fn files(&self) -> impl Iterator<Item = (&str, &str)> {
+        let named = self.sources.iter().skip(1).filter(|source| source.name != SET_NAME);
+        named.map(|source| (source.name.as_str(), source.text.as_str()))
     }
 
     /// Returns the scenario file as it was given.
@@ -124,19 +132,19 @@ pub fn from_text(name: &str, text: &str, sets: &[String]) -> Result<Loaded, Scen
     assemble(name, text, Path::new(""), sets)
 }
 
-/// The text of a file; what is wrong with it otherwise, with the place of the first byte that is no text.
-fn read_text(path: &Path) -> Result<String, String> {
+/// The text of a file of a format; what is wrong with it otherwise, with the place of the first byte that is no text.
+fn read_text(path: &Path, format: &str) -> Result<String, String> {
     let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
     String::from_utf8(bytes).map_err(|error| {
         let good = error.as_bytes().get(..error.utf8_error().valid_up_to()).unwrap_or_default();
         let line = good.iter().filter(|&&byte| byte == b'\n').count() + 1;
         let column = good.iter().rev().take_while(|&&byte| byte != b'\n').count() + 1;
-        format!("line {line}, column {column} (in bytes): not UTF-8; expected a TOML text")
+        format!("line {line}, column {column} (in bytes): not UTF-8; expected a {format} text")
     })
 }
 
 fn read(path: &Path, what: &str, name: &str) -> Result<String, ScenarioError> {
-    read_text(path).map_err(|error| {
+    read_text(path, "TOML").map_err(|error| {
         let problem = Problem::without_place(format!("cannot read {what} `{name}`: {error}"));
         ScenarioError::new(&[], vec![problem])
     })
@@ -157,6 +165,7 @@ fn assemble(name: &str, text: &str, folder: &Path, sets: &[String]) -> Result<Lo
     problems.extend(check::check(&sources, &schema::SCENARIO, &root));
     problems.extend(rules::check(&root));
     robot_file(&mut root, &mut sources, folder, &mut problems)?;
+    waypoints::file(&mut root, &mut sources, folder, &mut problems)?;
     if !problems.is_empty() {
         return Err(ScenarioError::new(&sources, problems));
     }
@@ -178,6 +187,17 @@ fn parse(sources: &[Source], index: usize) -> Result<Node, ScenarioError> {
     })
 }
 
+/// Reads a file that a key names: from the folder of the scenario file or, named by an argument, from the working directory.
+fn linked(key: &Node, name: &str, folder: &Path, format: &str) -> Result<Source, String> {
+    let is_in_scenario = key.place.source == 0;
+    let path = if is_in_scenario { folder.join(name) } else { PathBuf::from(name) };
+    let shown = path.display().to_string();
+    match read_text(&path, format) {
+        Ok(text) => Ok(Source { name: shown, text }),
+        Err(error) => Err(format!("cannot read `{shown}`: {error}")),
+    }
+}
+
 /// Reads the file that `robot.file` names and lays the scenario's own fields over it.
 fn robot_file(
     root: &mut Node,
@@ -187,19 +207,14 @@ fn robot_file(
 ) -> Result<(), ScenarioError> {
     let Some(file) = root.find("robot.file") else { return Ok(()) };
     let Some(name) = file.as_str() else { return Ok(()) };
-    let is_in_scenario = file.place.source == 0;
-    let path = if is_in_scenario { folder.join(name) } else { PathBuf::from(name) };
-    let shown = path.display().to_string();
-    let text = match read_text(&path) {
-        Ok(text) => text,
-        Err(error) => {
-            let message = format!("cannot read `{shown}`: {error}");
+    let source = sources.len();
+    match linked(file, name, folder, "TOML") {
+        Ok(linked) => sources.push(linked),
+        Err(message) => {
             problems.push(Problem::new("robot.file", message, file.place.clone()).expected("a robot file"));
             return Ok(());
         }
-    };
-    let source = sources.len();
-    sources.push(Source { name: shown, text });
+    }
     let mut below = parse(sources, source)?;
     let found = check::check(sources, &schema::ROBOT, &below);
     problems.extend(found);

@@ -1,16 +1,34 @@
 //! Reference trajectories of the tip, with their first and second derivatives in closed form.
 
+mod ramps;
+mod scurve;
+mod smooth_square;
+mod spline;
 mod square;
+mod waypoints;
+
+use std::sync::Arc;
 
 use mm_control::Reference;
 use mm_model::Real;
 use nalgebra::Vector3;
 
+use ramps::OwnTime;
+pub use ramps::Stop;
+pub use scurve::{Limits, SCurve};
+pub use spline::Spline;
+pub use waypoints::{Joined, MIN_DISTANCE, WaypointError, Waypoints};
+
 /// A path of the tip in time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Path {
     /// Appendix B of the thesis, literally: straights and arcs of radius 1 m at 0.31416 m/s.
     Square,
+    /// The same square from exact constants, its joints blended to continuous acceleration and bounded jerk.
+    SmoothSquare {
+        /// Time over which the motion is averaged, s.
+        window: f64,
+    },
     /// (5.1) to (5.3): x = 0.5 + 0.2 t, y = 0.3 sin 0.4t, z = 0.5 + 0.1 sin 0.4t.
     Sinusoid,
     /// (5.4) to (5.6): x = 0.1 t sin 0.25t, y = 0.1 t cos 0.25t, z = 0.3 + 0.008 t.
@@ -44,42 +62,39 @@ pub enum Path {
     },
     /// A fixed point.
     Hold(Vector3<f64>),
+    /// Through points, from rest to rest.
+    Waypoints(Arc<Waypoints>),
 }
 
-/// A path, started smoothly from rest if asked to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A path, started smoothly from rest and brought to rest again if asked to.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     /// The path.
     pub path: Path,
     /// Time over which the motion along the path comes up to speed, s; 0 starts at full speed.
     pub start_ramp: f64,
+    /// How the motion along the path comes to rest; it does not without one.
+    pub stop: Option<Stop>,
 }
 
 impl Trajectory {
     /// Position, velocity and acceleration at time `t`.
     ///
-    /// Equation, during the ramp of length T with u = t/T: the path runs on its own time T (u^3 - u^4/2), whose rate
-    /// 3 u^2 - 2 u^3 rises from 0 to 1 with continuous acceleration; after it the path lags T/2 behind the clock.
+    /// Equation: with ramps the path p runs on its own time s(t), so that velocity is p' s' and acceleration p'' s'^2 + p' s''.
+    /// s' rises from 0 to 1 as the cubic 3 u^2 - 2 u^3 of u = t/T and falls in the same way, with s'' continuous.
     #[must_use]
     #[inline]
     pub fn at(&self, t: f64) -> Reference<f64> {
-        if self.start_ramp > 0.0 { self.ramped(t) } else { self.path.at(t) }
+        if self.start_ramp > 0.0 || self.stop.is_some() { self.ramped(t) } else { self.path.at(t) }
     }
 
     fn ramped(&self, t: f64) -> Reference<f64> {
-        let ramp = self.start_ramp;
-        if t >= ramp {
-            return self.path.at(t - 0.5 * ramp);
-        }
-        let u = t / ramp;
-        let own_time = ramp * u * u * u * (1.0 - 0.5 * u);
-        let rate = u * u * (3.0 - 2.0 * u);
-        let rate_change = 6.0 * u * (1.0 - u) / ramp;
-        let at = self.path.at(own_time);
+        let OwnTime { time, rate, change } = OwnTime::at(t, self.start_ramp, self.stop);
+        let at = self.path.at(time);
         Reference {
             position: at.position,
             velocity: at.velocity * rate,
-            acceleration: at.acceleration * (rate * rate) + at.velocity * rate_change,
+            acceleration: at.acceleration * (rate * rate) + at.velocity * change,
         }
     }
 }
@@ -91,6 +106,7 @@ impl Path {
     pub fn at(&self, t: f64) -> Reference<f64> {
         match self {
             Self::Square => square::at(t),
+            Self::SmoothSquare { window } => smooth_square::at(t, *window),
             Self::Sinusoid => sinusoid(t),
             Self::Spiral => spiral(t),
             Self::Step { from, by, at } => fixed(if t < *at { *from } else { from + by }),
@@ -109,6 +125,16 @@ impl Path {
                 }
             }
             Self::Hold(point) => fixed(*point),
+            Self::Waypoints(waypoints) => waypoints.at(t),
+        }
+    }
+
+    /// Direction in which the path sets out, not of unit length; zero where it does not move.
+    #[must_use]
+    pub fn departure(&self) -> Vector3<f64> {
+        match self {
+            Self::Waypoints(waypoints) => waypoints.departure(),
+            _ => self.at(0.0).velocity,
         }
     }
 }

@@ -43,6 +43,7 @@ fn header(reference: &[[f64; 4]]) -> LogHeader<'_> {
     LogHeader {
         scenario_name: "synthetic",
         scenario_text: SCENARIO,
+        files: &[("my/path.CSV", "x_m,y_m,z_m\n"), ("robot.toml", "base_mass_kg = 40\n")],
         versions: &[("mm-control", "9.8.7")],
         seed: 42,
         controller: "bfsmc",
@@ -166,6 +167,13 @@ fn attachments_and_metadata_identify_the_run() {
         attachments.insert(attachment.name, (attachment.media_type, text));
     }
     assert_eq!(attachments["scenario.toml"].1, SCENARIO, "the scenario as run");
+    let of = |kind: &str, text: &str| (kind.to_owned(), text.to_owned());
+    assert_eq!(
+        attachments["my/path.CSV"],
+        of("text/csv", "x_m,y_m,z_m\n"),
+        "the points that the scenario names"
+    );
+    assert_eq!(attachments["robot.toml"], of("application/toml", "base_mass_kg = 40\n"), "its robot");
     assert_eq!(attachments["summary.json"].0, "application/json", "type of the summary");
     assert_eq!(attachments["summary.json"].1, "{\"schema\": \"mmsim.summary/1\"}", "the summary");
     let mut records = BTreeMap::new();

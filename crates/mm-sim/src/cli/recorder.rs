@@ -158,11 +158,13 @@ fn open_log(loaded: &Loaded, experiment: &Experiment, path: &Path) -> Result<Log
             [t, p.x, p.y, p.z]
         })
         .collect();
+    let files: Vec<(&str, &str)> = loaded.files().collect();
     LogWriter::create(
         path,
         &LogHeader {
             scenario_name: loaded.name(),
             scenario_text: loaded.text(),
+            files: &files,
             versions: &[("mmsim", VERSION)],
             seed: loaded.file.simulation.seed,
             controller: controller_name(loaded.file.controller.kind),

@@ -1,17 +1,20 @@
 //! The reference path of a scenario.
 
+use std::sync::Arc;
+
 use mm_model::Robot;
 use nalgebra::Vector3;
 
 use crate::scenario::{self, Loaded, Motion, ScenarioError};
 use crate::simulation::Clock;
-use crate::trajectory::{Path, Trajectory};
+use crate::trajectory::{Joined, Limits, MIN_DISTANCE, Path, Stop, Trajectory, WaypointError, Waypoints};
 
 /// The path that the file describes; none where it holds the start or imposes velocities.
-pub(super) fn path(trajectory: &scenario::Trajectory) -> Option<Path> {
+pub(super) fn path(loaded: &Loaded) -> Result<Option<Path>, ScenarioError> {
     let vector = |v: [f64; 3]| Vector3::from(v);
-    Some(match &trajectory.motion {
-        Motion::Square => Path::Square,
+    Ok(Some(match &loaded.file.trajectory.motion {
+        Motion::Square { smoothing_s } if *smoothing_s > 0.0 => Path::SmoothSquare { window: *smoothing_s },
+        Motion::Square { .. } => Path::Square,
         Motion::Sinusoid => Path::Sinusoid,
         Motion::Spiral => Path::Spiral,
         Motion::Step { from_m, by_m, at_s } => {
@@ -26,9 +29,46 @@ pub(super) fn path(trajectory: &scenario::Trajectory) -> Option<Path> {
             rate: speed_m_s / radius_m,
             start: *start_angle_rad,
         },
-        Motion::Hold { point_m } => Path::Hold(vector((*point_m)?)),
-        Motion::Velocities { .. } => return None,
-    })
+        Motion::Hold { point_m } => return Ok(point_m.map(|point| Path::Hold(vector(point)))),
+        Motion::Waypoints { points_m, path, speed_m_s, acceleration_m_s2, jerk_m_s3, .. } => {
+            let points: Vec<Vector3<f64>> = points_m.iter().flatten().copied().map(Vector3::from).collect();
+            let joined = match path {
+                scenario::WaypointPath::Spline => Joined::Spline,
+                scenario::WaypointPath::Lines => Joined::Lines,
+            };
+            let limits = Limits { speed: *speed_m_s, acceleration: *acceleration_m_s2, jerk: *jerk_m_s3 };
+            let motion = Waypoints::try_new(&points, joined, limits);
+            Path::Waypoints(Arc::new(motion.map_err(|error| refused(loaded, error))?))
+        }
+        Motion::Velocities { .. } => return Ok(None),
+    }))
+}
+
+/// The place of what makes no motion through points.
+fn refused(loaded: &Loaded, error: WaypointError) -> ScenarioError {
+    let (key, expected) = match error {
+        WaypointError::Same(index) => {
+            (format!("trajectory.points_m.{index}"), format!("another point, {MIN_DISTANCE} m away or more"))
+        }
+        WaypointError::NonFinite(index) => {
+            (format!("trajectory.points_m.{index}"), "finite numbers".to_owned())
+        }
+        WaypointError::Limit("speed") => ("trajectory.speed_m_s".to_owned(), "a number above 0".to_owned()),
+        WaypointError::Limit("jerk") => ("trajectory.jerk_m_s3".to_owned(), "a number above 0".to_owned()),
+        WaypointError::Limit(_) => ("trajectory.acceleration_m_s2".to_owned(), "a number above 0".to_owned()),
+        _ => (
+            "trajectory.points_m".to_owned(),
+            "at least 2 points, and limits in proportion to them".to_owned(),
+        ),
+    };
+    loaded.problem(&key, error.to_string(), expected)
+}
+
+/// How the reference comes to rest; it does not unless a ramp is given.
+pub(super) fn stop(file: &scenario::ScenarioFile) -> Option<Stop> {
+    let ramp = file.trajectory.stop_ramp_s;
+    let at = file.trajectory.stop_at_s.unwrap_or(file.simulation.duration_s);
+    (ramp > 0.0).then_some(Stop { at, ramp })
 }
 
 /// Refuses a trajectory that leaves the heights that some posture within the joint limits reaches.
@@ -53,6 +93,7 @@ pub(super) fn check_heights(
                 Motion::Line { .. } => "trajectory.velocity_m_s",
                 Motion::Circle { .. } => "trajectory.center_m",
                 Motion::Hold { .. } => "trajectory.point_m",
+                Motion::Waypoints { .. } => &waypoint_beyond(loaded, low, high),
                 _ => "trajectory.kind",
             };
             let message =
@@ -62,4 +103,12 @@ pub(super) fn check_heights(
         }
     }
     Ok(())
+}
+
+/// The first point out of reach, or all of them where only the curve between them is.
+fn waypoint_beyond(loaded: &Loaded, low: f64, high: f64) -> String {
+    let all = "trajectory.points_m";
+    let Motion::Waypoints { points_m, .. } = &loaded.file.trajectory.motion else { return all.to_owned() };
+    let beyond = points_m.iter().flatten().position(|[_, _, z]| *z < low - 1e-9 || *z > high + 1e-9);
+    beyond.map_or_else(|| all.to_owned(), |index| format!("{all}.{index}"))
 }

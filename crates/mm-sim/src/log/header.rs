@@ -10,6 +10,8 @@ pub struct LogHeader<'a> {
     pub scenario_name: &'a str,
     /// The scenario as run, TOML.
     pub scenario_text: &'a str,
+    /// Texts of the files that the scenario names, such as a robot or waypoints: file as found, text.
+    pub files: &'a [(&'a str, &'a str)],
     /// What else took part and its version: name, version. This crate's own is always there.
     pub versions: &'a [(&'a str, &'a str)],
     /// Seed of everything random.

@@ -101,6 +101,10 @@ impl<W: Write> LogWriter<W> {
                 .create(NoSeek::new(sink))?;
             mcap.write_metadata(&header.metadata())?;
             attach(&mut mcap, 0, "scenario.toml", "application/toml", header.scenario_text)?;
+            for (name, text) in header.files {
+                let is_csv = Path::new(name).extension().is_some_and(|kind| kind.eq_ignore_ascii_case("csv"));
+                attach(&mut mcap, 0, name, if is_csv { "text/csv" } else { "application/toml" }, text)?;
+            }
             let channels = add_channels(&mut mcap)?;
             Ok((mcap, channels))
         };

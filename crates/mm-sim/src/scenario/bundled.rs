@@ -18,6 +18,8 @@ static BUNDLED: &[(&str, &str)] = bundle![
     "sinusoid",
     "spiral",
     "square",
+    "square-smooth",
+    "waypoints",
     "spiral-disturbed",
     "step-disturbed",
     "spiral-compare",

@@ -299,6 +299,7 @@ fn plural(view: View<'_>) -> String {
         Some("number") => format!("numbers{}", range(view)),
         Some("integer") => format!("whole numbers{}", range(view)),
         Some("object") => "tables, `[[...]]`".to_owned(),
+        Some("array") => describe(view).replacen("an array", "arrays", 1),
         _ => "values".to_owned(),
     }
 }

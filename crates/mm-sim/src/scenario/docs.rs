@@ -147,10 +147,11 @@ fn one_line(text: &str) -> String {
 
 /// The unit that a key ends in.
 fn unit(key: &str) -> &'static str {
-    const UNITS: [(&str, &str); 14] = [
+    const UNITS: [(&str, &str); 15] = [
         ("_kg_m2", "kg m^2"),
         ("_n_m_s", "N m s"),
         ("_m_s2", "m/s^2"),
+        ("_m_s3", "m/s^3"),
         ("_rad_s", "rad/s"),
         ("_1_s", "1/s"),
         ("_n_m", "N m"),

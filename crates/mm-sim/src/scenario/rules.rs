@@ -16,6 +16,8 @@ pub(super) fn check(root: &Node) -> Vec<Problem> {
     joint_limits(root, "robot.link", &mut problems);
     segments(root, &mut problems);
     imposed(root, &mut problems);
+    waypoints(root, &mut problems);
+    ramps(root, &mut problems);
     for (index, disturbance) in items(root, "disturbance").iter().enumerate() {
         one_disturbance(disturbance, index, &mut problems);
     }
@@ -89,7 +91,11 @@ fn clock(root: &Node, problems: &mut Vec<Problem>) {
 }
 
 fn exclusive(root: &Node, problems: &mut Vec<Problem>) {
-    for (one, other) in [("robot.preset", "robot.file"), ("initial.base_pose", "initial.tip")] {
+    for (one, other) in [
+        ("robot.preset", "robot.file"),
+        ("initial.base_pose", "initial.tip"),
+        ("trajectory.points_m", "trajectory.file"),
+    ] {
         if root.find(one).is_some() && root.find(other).is_some() {
             problems.push(
                 Problem::new(other, format!("given together with `{one}`"), root.place_of(other))
@@ -141,6 +147,51 @@ fn imposed(root: &Node, problems: &mut Vec<Problem>) {
             Problem::new("controller.kind", message, root.place_of("controller.kind"))
                 .expected("`none` only with imposed `velocities`"),
         );
+    }
+}
+
+fn waypoints(root: &Node, problems: &mut Vec<Problem>) {
+    let is_waypoints = root.find("trajectory.kind").and_then(Node::as_str) == Some("waypoints");
+    if is_waypoints && root.find("trajectory.points_m").or(root.find("trajectory.file")).is_none() {
+        let key = "trajectory.points_m";
+        problems.push(
+            Problem::new(key, "missing key", root.place_of(key)).expected("an array of points, or `file`"),
+        );
+    }
+}
+
+/// A stop needs its ramp and the time for both ramps; a motion that has its own beginning and end takes neither.
+fn ramps(root: &Node, problems: &mut Vec<Problem>) {
+    let mut report = |key: &str, message: String, expected: String| {
+        problems.push(Problem::new(key, message, root.place_of(key)).expected(expected));
+    };
+    let kind = root.find("trajectory.kind").and_then(Node::as_str);
+    if let Some(kind @ ("velocities" | "waypoints")) = kind {
+        for key in ["trajectory.start_ramp_s", "trajectory.stop_ramp_s", "trajectory.stop_at_s"] {
+            if root.find(key).is_some() {
+                let message = format!("no ramp goes with kind = \"{kind}\"");
+                report(key, message, "none: the motion has its own beginning and end".to_owned());
+            }
+        }
+        return;
+    }
+    let ramp = |key: &str| root.number(key).filter(|value| *value >= 0.0).unwrap_or(0.0);
+    let (start, stop) = (ramp("trajectory.start_ramp_s"), ramp("trajectory.stop_ramp_s"));
+    let at_key = "trajectory.stop_at_s";
+    if root.find(at_key).is_some() && stop <= 0.0 {
+        report(at_key, "given without `trajectory.stop_ramp_s`".to_owned(), "both or none".to_owned());
+        return;
+    }
+    let (key, at) = match root.find(at_key) {
+        Some(_) => (at_key, positive(root, at_key)),
+        None => ("trajectory.stop_ramp_s", positive(root, "simulation.duration_s")),
+    };
+    if let Some(at) = at
+        && stop > 0.0
+        && at < start + stop
+    {
+        let message = format!("rest at {at} s leaves no time for ramps of {start} and {stop} s");
+        report(key, message, format!("rest at {} s or later", start + stop));
     }
 }
 

@@ -19,7 +19,8 @@ pub use controller::{Controller, ControllerKind, Gains, Misprints, Outer, PerAxi
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
 pub use robot::{Friction, Link, Plant, Preset, Robot, RobotFields};
-pub use trajectory::{Motion, Segment, Trajectory};
+pub(super) use trajectory::WaypointFile;
+pub use trajectory::{Motion, Segment, Trajectory, WaypointPath};
 
 /// The period of the plant and of the controller when the file names none, in seconds.
 pub(super) const DEFAULT_PERIOD_S: f64 = 1e-3;

@@ -13,6 +13,13 @@ pub struct Trajectory {
     #[serde(default)]
     #[schemars(with = "NonNegative")]
     pub start_ramp_s: f64,
+    /// Time over which the reference comes to rest again; 0 does not stop it.
+    #[serde(default)]
+    #[schemars(with = "NonNegative")]
+    pub stop_ramp_s: f64,
+    /// When the reference rests, with `stop_ramp_s`. Default: at the end of the run.
+    #[schemars(with = "Option<Positive>")]
+    pub stop_at_s: Option<f64>,
     /// Runs although the arm cannot reach the reference's height.
     #[serde(default)]
     pub allow_unreachable: bool,
@@ -27,7 +34,13 @@ pub struct Trajectory {
 #[non_exhaustive]
 pub enum Motion {
     /// The rounded square wave of Appendix B, in the plane z = 0.5 m.
-    Square,
+    Square {
+        /// Time over which the motion is averaged, from exact constants: its joints are blended to continuous acceleration with
+        /// a bounded jerk, 0.2 m/s^3 for 0.5 s and inversely with the time. 0 leaves the printed square with its jumps.
+        #[serde(default)]
+        #[schemars(with = "NonNegative")]
+        smoothing_s: f64,
+    },
     /// The three-dimensional sinusoid (5.1) to (5.3).
     Sinusoid,
     /// The three-dimensional spiral (5.4) to (5.6).
@@ -67,12 +80,56 @@ pub enum Motion {
         /// The point, in the world frame. Default: the tip at the start.
         point_m: Option<[f64; 3]>,
     },
+    /// Points in the world frame, from rest to rest within limits of the tip's speed, acceleration and jerk; the tip waits at
+    /// the last one.
+    Waypoints {
+        /// The points in order, at least 2 and none twice in a row; excludes `file`.
+        #[schemars(length(min = 2))]
+        points_m: Option<Vec<[f64; 3]>>,
+        /// A CSV file of points under the header `x_m,y_m,z_m`, or a TOML file whose one key is `points_m`, sought in the folder
+        /// of the scenario file; a name given by `--set` is sought from the working directory.
+        file: Option<String>,
+        /// How the points are joined.
+        #[serde(default)]
+        path: WaypointPath,
+        /// Largest speed.
+        #[schemars(with = "Positive")]
+        speed_m_s: f64,
+        /// Largest acceleration, along the path and across it together.
+        #[schemars(with = "Positive")]
+        acceleration_m_s2: f64,
+        /// Largest jerk.
+        #[schemars(with = "Positive")]
+        jerk_m_s3: f64,
+    },
     /// Velocities imposed on the robot, open loop; for the controller kind `none`.
     Velocities {
         /// The velocities, piece by piece; after the last piece the robot rests.
         #[schemars(length(min = 1))]
         segment: Vec<Segment>,
     },
+}
+
+/// How points are joined.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum WaypointPath {
+    /// One curve with continuous curvature, passed without a stop.
+    #[default]
+    Spline,
+    /// Straight lines, with a stop at each point.
+    Lines,
+}
+
+/// A file of points.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[expect(dead_code, reason = "what is read from the file goes where `trajectory.points_m` stands")]
+pub(in crate::scenario) struct WaypointFile {
+    /// The points in order, in the world frame.
+    #[schemars(length(min = 2))]
+    points_m: Vec<[f64; 3]>,
 }
 
 /// Constant velocities until a time.
