@@ -36,8 +36,12 @@ pub struct Input<T, const N: usize> {
 pub struct Status {
     /// A torque was cut to its limit.
     pub saturated: bool,
-    /// The manipulability is below its threshold, where the pseudo-inverse is damped if damping is on.
+    /// The manipulability of what is free to move is below its threshold, where the pseudo-inverse is damped if damping is on.
     pub near_singular: bool,
+    /// The correction of the tip's error was cut to its largest speed, or the base held to the speed up to which the model holds.
+    pub speed_limited: bool,
+    /// A joint's rate was held to the bound that keeps it within its limits.
+    pub joint_limited: bool,
     /// A joint is outside its limits.
     pub beyond_joint_limit: bool,
 }
@@ -88,6 +92,8 @@ pub struct ControlState<T, const N: usize> {
     observer: ObserverState<T, N>,
     /// Whether the last torque was limited.
     held: bool,
+    /// Updates done, counted up to where the outer loop has released the base.
+    updates: u32,
 }
 
 /// Parameters of the stack, not yet checked.
@@ -195,13 +201,19 @@ where
             limit: gains.learning_limit,
             period,
         });
-        Ok(Self { robot, outer: OuterLoop::new(outer.checked()?), law, observer, gains, period })
+        let outer = OuterLoop::new(outer.checked()?, &robot.params().limits, period);
+        Ok(Self { robot, outer, law, observer, gains, period })
     }
 
     /// The state before the first update: nothing integrated, nothing learned.
     #[must_use]
     pub fn initial_state(&self) -> ControlState<T, N> {
-        ControlState { integral: Velocity::zero(), observer: ObserverState::initial(), held: false }
+        ControlState {
+            integral: Velocity::zero(),
+            observer: ObserverState::initial(),
+            held: false,
+            updates: 0,
+        }
     }
 
     /// The robot that the controller believes in.
@@ -280,7 +292,7 @@ where
         let Input { q, nu, reference } = input;
         let robot = &self.robot;
         let posture = &sines.posture;
-        let outer = self.outer.evaluate(robot, (q, sines), nu, reference);
+        let outer = self.outer.evaluate(robot, (q, sines), nu, reference, state.updates);
 
         let c = self.outer.params().sliding_gain;
         let lag = nu.minus(outer.nu_c);
@@ -312,12 +324,15 @@ where
         if !(integral.is_finite() && observer.is_finite()) {
             return Err(ControlError::Overflow);
         }
-        *state = ControlState { integral, observer, held: saturated };
+        let updates = state.updates + u32::from(state.updates < self.outer.held_updates());
+        *state = ControlState { integral, observer, held: saturated, updates };
         Ok(Output {
             torque,
             status: Status {
                 saturated,
-                near_singular: self.outer.is_near_singular(outer.manipulability_squared),
+                near_singular: outer.near_singular,
+                speed_limited: outer.speed_limited,
+                joint_limited: outer.joint_limited,
                 beyond_joint_limit: !robot.within_joint_limits(&q.joints),
             },
             signals: Signals {

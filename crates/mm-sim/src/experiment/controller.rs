@@ -35,7 +35,9 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
             SetupError::Param(error) => {
                 let name = error.parameter();
                 let outer = name.ends_with("_1_s") && name != "observer_bandwidth_1_s"
-                    || ["weights", "damping_max", "manipulability_threshold"].contains(&name)
+                    || ["weights", "damping_max", "manipulability_threshold", "correction_speed_limit_m_s"]
+                        .contains(&name)
+                    || name.starts_with("base_")
                     || name.contains("_rad");
                 format!("controller.{}.{name}", if outer { "outer" } else { "gains" })
             }
@@ -63,6 +65,10 @@ fn outer(robot: &Robot<f64, 3>, raw: &scenario::Outer) -> OuterParams<f64, 3> {
     set(&mut outer.manipulability_gain, raw.manipulability_gain_rad_s);
     set(&mut outer.manipulability_threshold, raw.manipulability_threshold);
     set(&mut outer.damping_max, raw.damping_max);
+    set(&mut outer.correction_speed_limit, raw.correction_speed_limit_m_s);
+    set(&mut outer.joint_limit_rate, raw.joint_limit_rate_1_s);
+    outer.base_hold = raw.base_hold_s;
+    outer.base_release = raw.base_release_s;
     outer.minimum_norm = raw.minimum_norm;
     outer
 }
