@@ -34,6 +34,7 @@ fn the_names_are_those_of_the_interface() {
     names.sort_unstable();
     for name in [
         "sinusoid",
+        "sinusoid-base-held",
         "spiral",
         "spiral-compare",
         "spiral-disturbed",
@@ -148,6 +149,7 @@ fn all_laws_share_the_outer_loop_and_the_start() {
 fn every_law_survives_every_tracking_scenario() {
     for name in [
         "sinusoid",
+        "sinusoid-base-held",
         "spiral",
         "square",
         "spiral-disturbed",

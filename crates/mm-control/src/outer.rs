@@ -1,15 +1,20 @@
 //! Outer loop: kinematic backstepping (4.1 to 4.13), from the tip's error to the velocity that the robot should have.
 
+mod base_share;
+mod correction;
 mod params;
 mod posture_task;
+mod restrained;
 
 pub use params::OuterParams;
 
-use mm_model::{Configuration, Force, Mechanism, Real, Robot, Sines, SinesOf, TipJacobian, Velocity};
+use mm_model::{Configuration, Force, Limits, Mechanism, Real, Robot, Sines, SinesOf, TipJacobian, Velocity};
 use nalgebra::Vector3;
 
 use crate::Reference;
 use crate::symmetric3::Symmetric3;
+use base_share::{BaseHold, BaseShare};
+use restrained::{RateBounds, Situation};
 
 /// What the outer loop asks of the inner one, and what it saw on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,11 +31,17 @@ pub struct OuterOutput<T, const N: usize> {
     pub manipulability_squared: T,
     /// Square of the damping lambda; above zero only near a singularity.
     pub damping_squared: T,
+    /// Whether the manipulability, that of the channels free to move, is below the threshold at which damping sets in.
+    pub near_singular: bool,
+    /// Whether the correction K e was cut to its largest speed, or the base held to the speed up to which the model holds.
+    pub speed_limited: bool,
+    /// Whether a joint's rate was held to the bound that keeps it within its limits.
+    pub joint_limited: bool,
 }
 
 /// Kinematic backstepping with a weighted, damped pseudo-inverse and a posture task in its null space.
 ///
-/// Equation, with e = p - p_d (actual minus desired), u = p_d' - K e:
+/// Equation, with e = p - p_d (actual minus desired), u = p_d' - K e, K e cut to a largest length:
 ///
 /// ```text
 /// nu_c = J# u + (I - J# J) z,    J# = W^-1 J' (J W^-1 J' + lambda^2 I)^-1
@@ -50,18 +61,39 @@ pub struct OuterOutput<T, const N: usize> {
 ///
 /// Stability (4.6 to 4.13): with J J# = I and nu = nu_c the error decays as e' = -K e; with an inner error it stays within
 /// |J (nu - nu_c)| / min K.
+///
+/// Restraints, each of which leaves the law as it is, bit for bit, where it does not act, and keeps nu_c' exact where it does:
+///
+/// - **Speed of the correction.** |K e| above its largest length L is cut to it, and e' = -r K e with r = L/|K e| then. V = e'K e/2 falls
+///   all the same, V' = -r |K e|^2, so that e = 0 is reached from everywhere, but only at the speed L far away instead of
+///   exponentially. What is lost is the margin: an inner error d = J (nu - nu_c) gives V' = -|K e| (L - |d|) at worst, which
+///   is negative only for |d| < L. A reference faster than the robot is not caught up with either.
+/// - **Bounds on rates.** -gamma (q - lo) <= dq_c <= gamma (hi - q), which makes the box of joint limits invariant for nu = nu_c, and
+///   |v_c| at most the speed up to which the model holds. A channel beyond its bound is held to it, the rest is solved again: the
+///   others take over as far as they can, so that e' = -K e still holds as long as three independent directions are left.
+///   Otherwise the tip falls behind in the direction that is lost: with the damping, e' = -(I - P) K e - P p_d' for a symmetric
+///   P with 0 <= P <= I, and e stays bounded for a reference that rests. Where several channels are at their bounds, nu_c may jump.
+/// - **Base held.** The inverse weights of the base are multiplied by beta(t): 0 during the hold, when the arm alone follows, then
+///   u^2 (3 - 2 u) over the release.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OuterLoop<T, const N: usize> {
     params: OuterParams<T, N>,
     inverse_weights: Velocity<T, N>,
+    base_hold: BaseHold<T>,
+    bounds: RateBounds<T, N>,
 }
 
 impl<T: Real, const N: usize> OuterLoop<T, N>
 where
     Robot<T, N>: Mechanism<T, N>,
 {
-    pub(crate) fn new(params: OuterParams<T, N>) -> Self {
-        Self { params, inverse_weights: params.weights.map(|weight| T::ONE / weight) }
+    pub(crate) fn new(params: OuterParams<T, N>, limits: &Limits<T, N>, period: T) -> Self {
+        Self {
+            params,
+            inverse_weights: params.weights.map(|weight| T::ONE / weight),
+            base_hold: BaseHold::new(&params, period),
+            bounds: RateBounds::new(params.joint_limit_rate, limits.speed, &limits.joints),
+        }
     }
 
     /// The parameters.
@@ -78,7 +110,16 @@ where
         manipulability_squared < threshold * threshold
     }
 
+    /// Updates over which the base is held and released; a later one needs no number of its own.
+    #[must_use]
+    #[inline]
+    pub const fn held_updates(&self) -> u32 {
+        self.base_hold.updates()
+    }
+
     /// Evaluates the law at a configuration, given with its sines, with `nu` the measured velocity.
+    ///
+    /// `update` counts the updates since the start, from 0; it matters below [`held_updates`](Self::held_updates) only.
     #[inline]
     pub fn evaluate(
         &self,
@@ -86,41 +127,48 @@ where
         (q, sines): (&Configuration<T, N>, &SinesOf<T, N>),
         nu: &Velocity<T, N>,
         reference: &Reference<T>,
+        update: u32,
     ) -> OuterOutput<T, N> {
         let Sines { heading, ref posture } = *sines;
-        let tip = robot.tip_offset(heading, posture) + Vector3::new(q.x, q.y, T::ZERO);
+        let position = robot.tip_offset(heading, posture) + Vector3::new(q.x, q.y, T::ZERO);
         let jacobian = robot.tip_jacobian(heading, posture);
         let rate = robot.tip_jacobian_rate(heading, posture, nu);
-        let gain = &self.params.position_gain;
-        let error = tip - reference.position;
+        let error = position - reference.position;
         let error_rate = jacobian.product(nu) - reference.velocity;
-        let u = reference.velocity - gain.component_mul(&error);
-        let du = reference.acceleration - gain.component_mul(&error_rate);
+        let tip = self.params.tip_task(reference, &error, &error_rate);
 
         let task = self.params.posture_task(robot, q, posture, nu);
         let (z, dz) = (&task.velocity, &task.rate);
         let normal = self.normal_matrix(&jacobian, task.damping_squared).factor();
-        let y = normal.solve(&(u - jacobian.joint_product(z)));
+        let y = normal.solve(&(tip.velocity - jacobian.joint_product(z)));
         let x = self.weighted(jacobian.transpose_product(&y));
         let x_turn = self.weighted(rate.transpose_product(&y));
         let drift = rate.product(&x) + jacobian.product(&x_turn) + y * task.damping_squared_rate;
-        let dy = normal.solve(&(du - rate.joint_product(z) - jacobian.joint_product(dz) - drift));
+        let dy = normal.solve(&(tip.rate - rate.joint_product(z) - jacobian.joint_product(dz) - drift));
         let dx = x_turn.plus(self.weighted(jacobian.transpose_product(&dy)));
-        OuterOutput {
+        let mut output = OuterOutput {
             nu_c: with_joints_added(x, z),
             dnu_c: with_joints_added(dx, dz),
-            tip,
+            tip: position,
             error,
             manipulability_squared: task.manipulability_squared,
             damping_squared: task.damping_squared,
+            near_singular: self.is_near_singular(task.manipulability_squared),
+            speed_limited: tip.limited,
+            joint_limited: false,
+        };
+        let base_held = update < self.base_hold.updates();
+        if base_held || self.bounds.exceeded(&q.joints, &output.nu_c) {
+            let base = if base_held { self.base_hold.share(update) } else { BaseShare::full() };
+            self.restrain(&Situation { robot, q, sines, nu, reference }, base, &mut output);
         }
+        output
     }
 
     /// W^-1 times a covector.
     #[inline]
     fn weighted(&self, covector: Force<T, N>) -> Velocity<T, N> {
-        let Force { forward, yaw, joints } = covector;
-        Velocity { forward, yaw_rate: yaw, joints }.zip(self.inverse_weights, |a, w| a * w)
+        channels_of(covector).zip(self.inverse_weights, |a, w| a * w)
     }
 
     /// A = J W^-1 J' + lambda^2 I.
@@ -133,6 +181,13 @@ where
                 sum.plus_outer(column, weight)
             })
     }
+}
+
+/// A covector read as a velocity, channel by channel.
+#[inline]
+fn channels_of<T: Real, const N: usize>(covector: Force<T, N>) -> Velocity<T, N> {
+    let Force { forward, yaw, joints } = covector;
+    Velocity { forward, yaw_rate: yaw, joints }
 }
 
 #[inline]

@@ -36,8 +36,12 @@ pub struct Input<T, const N: usize> {
 pub struct Status {
     /// A torque was cut to its limit.
     pub saturated: bool,
-    /// The manipulability is below its threshold, where the pseudo-inverse is damped if damping is on.
+    /// The manipulability of what is free to move is below its threshold, where the pseudo-inverse is damped if damping is on.
     pub near_singular: bool,
+    /// The correction of the tip's error was cut to its largest speed, or the base held to the speed up to which the model holds.
+    pub speed_limited: bool,
+    /// A joint's rate was held to the bound that keeps it within its limits.
+    pub joint_limited: bool,
     /// A joint is outside its limits.
     pub beyond_joint_limit: bool,
 }
@@ -91,6 +95,8 @@ pub struct ControlState<T, const N: usize> {
     memory: Memory<T, N>,
     /// Whether the last torque was limited.
     held: bool,
+    /// Updates done, counted up to where the outer loop has released the base.
+    updates: u32,
 }
 
 /// Parameters of the stack, not yet checked.
@@ -198,7 +204,8 @@ where
             limit: gains.learning_limit,
             period,
         });
-        Ok(Self { robot, outer: OuterLoop::new(outer.checked()?), law, observer, gains, period })
+        let outer = OuterLoop::new(outer.checked()?, &robot.params().limits, period);
+        Ok(Self { robot, outer, law, observer, gains, period })
     }
 
     /// The state before the first update: nothing integrated, nothing learned.
@@ -209,6 +216,7 @@ where
             observer: ObserverState::initial(),
             memory: Memory::None,
             held: false,
+            updates: 0,
         }
     }
 
@@ -287,7 +295,7 @@ where
     ) -> Result<Output<T, N>, ControlError> {
         let Input { q, nu, reference } = input;
         let robot = &self.robot;
-        let outer = self.outer.evaluate(robot, (q, sines), nu, reference);
+        let outer = self.outer.evaluate(robot, (q, sines), nu, reference, state.updates);
 
         let c = self.outer.params().sliding_gain;
         let lag = nu.minus(outer.nu_c);
@@ -364,12 +372,15 @@ where
         if let (Some(memory), false) = (drive.memory, saturated) {
             state.memory = memory;
         }
+        state.updates += u32::from(state.updates < self.outer.held_updates());
         (state.integral, state.observer, state.held) = (integral, observer, saturated);
         Ok(Output {
             torque,
             status: Status {
                 saturated,
-                near_singular: self.outer.is_near_singular(outer.manipulability_squared),
+                near_singular: outer.near_singular,
+                speed_limited: outer.speed_limited,
+                joint_limited: outer.joint_limited,
                 beyond_joint_limit: !robot.within_joint_limits(&q.joints),
             },
             signals: Signals {

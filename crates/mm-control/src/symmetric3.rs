@@ -45,6 +45,29 @@ impl<T: Real> Symmetric3<T> {
         }
     }
 
+    /// This matrix plus `weight (a b' + b a')`.
+    pub(crate) fn plus_both(self, a: &Vector3<T>, b: &Vector3<T>, weight: T) -> Self {
+        let (x, y, z) = (a.x * weight, a.y * weight, a.z * weight);
+        Self {
+            xx: self.xx + T::TWO * x * b.x,
+            xy: self.xy + x * b.y + y * b.x,
+            xz: self.xz + x * b.z + z * b.x,
+            yy: self.yy + T::TWO * y * b.y,
+            yz: self.yz + y * b.z + z * b.y,
+            zz: self.zz + T::TWO * z * b.z,
+        }
+    }
+
+    /// The determinant, and its rate where this matrix changes at `rate`: the adjugate times the rate, summed over all entries.
+    pub(crate) fn determinant(&self, rate: &Self) -> (T, T) {
+        let Self { xx, xy, xz, yy, yz, zz } = *self;
+        let (axx, ayy, azz) = (yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy);
+        let (axy, axz, ayz) = (xz * yz - xy * zz, xy * yz - xz * yy, xy * xz - xx * yz);
+        let diagonal = axx * rate.xx + ayy * rate.yy + azz * rate.zz;
+        let beside = axy * rate.xy + axz * rate.xz + ayz * rate.yz;
+        (xx * axx + xy * axy + xz * axz, diagonal + T::TWO * beside)
+    }
+
     /// Factorizes; a pivot that rounding has eaten up is replaced by the smallest that it can be told from.
     #[inline]
     pub(crate) fn factor(&self) -> Factor3<T> {

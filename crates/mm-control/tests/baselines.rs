@@ -111,7 +111,7 @@ impl Twin {
         let Input { q, nu: speed, reference } = input;
         let robot = *self.stack.robot();
         let gains = *self.stack.gains();
-        let outer = self.stack.outer().evaluate(&robot, (q, &robot.sines(q)), speed, reference);
+        let outer = self.stack.outer().evaluate(&robot, (q, &robot.sines(q)), speed, reference, 0);
         let (nu, nu_c) = (of(speed.channels()), of(outer.nu_c.channels()));
         let dnu_c = of(outer.dnu_c.channels());
         let c = of(self.stack.outer().params().sliding_gain.channels());

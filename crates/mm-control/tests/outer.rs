@@ -13,10 +13,12 @@
 //! 1e-9 of the norm for the inverses, rounding times a condition number of up to 1e6; others by their reasons.
 
 mod common {
+    pub(crate) mod motion;
     pub(crate) mod random;
     pub(crate) mod robots;
 }
 
+use common::motion::{Path, arc, extrapolated, random_params, vector};
 use common::random::Random;
 use mm_control::{ControlStack, Gains, LawKind, OuterOutput, OuterParams, Reference, StackParams};
 use mm_model::{Configuration, Mechanism, Real, Robot, RobotParams, Velocity};
@@ -39,75 +41,7 @@ fn evaluate(
     reference: &Reference<f64>,
 ) -> OuterOutput<f64, 3> {
     let robot = stack.robot();
-    stack.outer().evaluate(robot, (q, &robot.sines(q)), nu, reference)
-}
-
-fn vector(nu: &Velocity<f64, 3>) -> SVector<f64, 5> {
-    SVector::from_iterator(nu.channels())
-}
-
-fn sine(angle: f64) -> f64 {
-    Real::sin_cos(angle).0
-}
-
-fn cosine(angle: f64) -> f64 {
-    Real::sin_cos(angle).1
-}
-
-/// Random gains on every axis and channel, the manipulability threshold `ratio` times the manipulability at `q`.
-fn random_params(draw: &mut Random, manipulability: f64, ratio: f64) -> Params {
-    Params {
-        position_gain: Vector3::new(
-            draw.between(1.0, 20.0),
-            draw.between(1.0, 20.0),
-            draw.between(1.0, 20.0),
-        ),
-        sliding_gain: Velocity::splat(10.0),
-        weights: Velocity::splat(0.0).map(|_: f64| draw.between(0.2, 5.0)),
-        posture_gain: draw.between(0.0, 2.0),
-        joint_limit_gain: draw.between(0.5, 4.0),
-        joint_limit_margin: draw.between(0.05, 0.4),
-        manipulability_gain: draw.between(0.0, 0.05),
-        manipulability_threshold: manipulability * ratio,
-        damping_max: draw.between(0.05, 0.2),
-        minimum_norm: false,
-    }
-}
-
-/// Where the exact arc with constant nu is after `t`: chord of the turn for the base, straight lines for the joints.
-fn arc(q: &Configuration<f64, 3>, nu: &Velocity<f64, 3>, t: f64) -> Configuration<f64, 3> {
-    let half = 0.5 * nu.yaw_rate * t;
-    let chord = nu.forward * t * if half.abs() < 1e-9 { 1.0 } else { sine(half) / half };
-    let [q1, q2, q3] = q.joints;
-    let [d1, d2, d3] = nu.joints;
-    Configuration {
-        x: q.x + chord * cosine(q.heading + half),
-        y: q.y + chord * sine(q.heading + half),
-        heading: q.heading + 2.0 * half,
-        joints: [q1 + d1 * t, q2 + d2 * t, q3 + d3 * t],
-    }
-}
-
-/// A smooth path per axis: p = start + size sin(rate t + phase).
-struct Path {
-    start: Vector3<f64>,
-    waves: [(f64, f64, f64); 3],
-}
-
-impl Path {
-    fn at(&self, t: f64) -> Reference<f64> {
-        let wave = |f: fn(f64, f64, f64) -> f64| {
-            let [x, y, z] = self
-                .waves
-                .map(|(size, rate, phase)| size * f(rate, sine(rate * t + phase), cosine(rate * t + phase)));
-            Vector3::new(x, y, z)
-        };
-        Reference {
-            position: self.start + wave(|_, sin, _| sin),
-            velocity: wave(|rate, _, cos| rate * cos),
-            acceleration: wave(|rate, sin, _| -rate * rate * sin),
-        }
-    }
+    stack.outer().evaluate(robot, (q, &robot.sines(q)), nu, reference, 0)
 }
 
 /// Postures of the derivative's cases.
@@ -169,19 +103,14 @@ fn the_rate_is_the_derivative_along_the_motion() {
         for case in 0..1000 {
             let (stack, q) = zone.case(&mut draw);
             let nu = draw.velocity();
-            let waves =
-                [(); 3].map(|()| (draw.between(0.0, 0.5), draw.between(0.0, 3.0), draw.between(-3.0, 3.0)));
-            let path = Path { start: stack.robot().tip_position(&q), waves };
+            let path = Path::random(&mut draw, stack.robot().tip_position(&q));
             let law = |t: f64| vector(&evaluate(&stack, &arc(&q, &nu, t), &nu, &path.at(t)).nu_c);
             let on = pieces(&stack, &q);
             if [-STEP, STEP].iter().any(|&t| pieces(&stack, &arc(&q, &nu, t)) != on) {
                 // The second derivative jumps in between: differences lose their order there. See the test of continuity.
                 continue;
             }
-            let difference = |h: f64| (law(h) - law(-h)) / (2.0 * h);
-            let [d1, d2, d4] = [1.0, 0.5, 0.25].map(|f| difference(STEP * f));
-            let (r1, r2) = ((4.0 * d2 - d1) / 3.0, (4.0 * d4 - d2) / 3.0);
-            let expected = (16.0 * r2 - r1) / 15.0;
+            let expected = extrapolated(law, STEP);
             let got = vector(&evaluate(&stack, &q, &nu, &path.at(0.0)).dnu_c);
             let error = (got - expected).norm() / expected.norm();
             worst = worst.max(error);

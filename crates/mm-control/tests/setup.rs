@@ -52,7 +52,7 @@ fn refused(spoil: Spoil) -> Option<SetupError> {
 #[test]
 fn parameters_are_refused_by_name() {
     use ParamError::{Negative, NonFinite, NonPositive};
-    let cases: [(ParamError, Spoil); 24] = [
+    let cases: [(ParamError, Spoil); 28] = [
         (NonPositive("control_period_s"), |p| p.period = 0.0),
         (NonPositive("control_period_s"), |p| p.period = -1e-3),
         (NonFinite("control_period_s"), |p| p.period = f64::NAN),
@@ -68,6 +68,10 @@ fn parameters_are_refused_by_name() {
         (Negative("manipulability_gain_rad_s"), |p| p.outer.manipulability_gain = -0.1),
         (NonPositive("manipulability_threshold"), |p| p.outer.manipulability_threshold = 0.0),
         (Negative("damping_max"), |p| p.outer.damping_max = -0.1),
+        (NonPositive("correction_speed_limit_m_s"), |p| p.outer.correction_speed_limit = 0.0),
+        (Negative("joint_limit_rate_1_s"), |p| p.outer.joint_limit_rate = -1.0),
+        (Negative("base_hold_s"), |p| p.outer.base_hold = -1.0),
+        (NonFinite("base_release_s"), |p| p.outer.base_release = f64::NAN),
         (NonFinite("switching_gain"), |p| p.gains.switching.yaw = f64::NAN),
         (Negative("switching_gain"), |p| p.gains.switching.joints[1] = -1.0),
         (NonPositive("boundary_layer"), |p| p.gains.boundary_layer.forward = 0.0),

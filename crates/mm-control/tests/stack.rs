@@ -99,7 +99,7 @@ impl Twin {
         let Input { q, nu: speed, reference } = input;
         let robot = self.stack.robot();
         let posture = robot.posture(&q.joints);
-        let outer = self.stack.outer().evaluate(robot, (q, &robot.sines(q)), speed, reference);
+        let outer = self.stack.outer().evaluate(robot, (q, &robot.sines(q)), speed, reference, 0);
         let (nu, nu_c) = (of(speed.channels()), of(outer.nu_c.channels()));
         let c = of(self.stack.outer().params().sliding_gain.channels());
         let lag = nu - nu_c;
@@ -205,8 +205,10 @@ fn each_sliding_variable_acts_along_its_own_direction() {
         let q = Configuration { joints: [0.3, 0.9, -1.7], heading: 0.4, ..Configuration::zero() };
         let hold = Vector3::zeros();
         let reference = Reference { position: thesis().tip_position(&q), velocity: hold, acceleration: hold };
-        let nu_c =
-            with.outer().evaluate(&thesis(), (&q, &thesis().sines(&q)), &Velocity::zero(), &reference).nu_c;
+        let nu_c = with
+            .outer()
+            .evaluate(&thesis(), (&q, &thesis().sines(&q)), &Velocity::zero(), &reference, 0)
+            .nu_c;
         let push = |forward: f64, yaw_rate: f64| {
             let nu = Velocity { forward: nu_c.forward + forward, yaw_rate: nu_c.yaw_rate + yaw_rate, ..nu_c };
             let torque = |stack: &Stack| {

@@ -8,6 +8,7 @@ use mm_model::{Angle, Configuration, Mechanism, Real, Robot, Velocity};
 
 use crate::digest::Digest;
 use crate::metrics::{Accumulator, Tick};
+use crate::monitors::Lyapunov;
 use crate::plant::{Plant, PlantState};
 use crate::scenario::{Loaded, ScenarioError, Segment};
 use crate::simulation::{ASK_EVERY, Clock, Ending, Recorder, RunResult, Sample};
@@ -159,6 +160,7 @@ impl Imposed {
                     torque: &torque,
                     external: mm_model::Force::zero(),
                     required_gain: mm_model::Force::zero(),
+                    lyapunov: Lyapunov::default(),
                     manipulability_squared,
                     output: None,
                 };
@@ -171,6 +173,7 @@ impl Imposed {
         }
         Ok(RunResult {
             metrics: metrics.finish(None),
+            monitors: None,
             digest: digest.finish(),
             ending,
             joint_limit_crossed_at: crossed_at,

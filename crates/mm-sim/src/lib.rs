@@ -13,6 +13,7 @@ pub mod experiment;
 pub mod imposed;
 pub mod log;
 pub mod metrics;
+pub mod monitors;
 pub mod plant;
 pub mod random;
 pub mod scenario;

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use crate::digest::Digest;
 use crate::metrics::{Accumulator, Metrics, Tick};
+use crate::monitors::{Lyapunov, MonitorReport, Monitors};
 use crate::plant::{Plant, PlantSines, PlantState};
 use crate::trajectory::Trajectory;
 
@@ -70,6 +71,8 @@ pub struct Sample<'a> {
     pub external: Force<f64, 3>,
     /// Switching gain that the reaching condition asks for.
     pub required_gain: Force<f64, 3>,
+    /// Lyapunov function of the sliding mode; zero for an imposed motion.
+    pub lyapunov: Lyapunov,
     /// Square of the true manipulability.
     pub manipulability_squared: f64,
     /// The controller's outcomes and signals; none for an imposed motion.
@@ -139,6 +142,8 @@ pub enum Ending {
 pub struct RunResult {
     /// Metrics over the ticks simulated.
     pub metrics: Metrics,
+    /// What the monitors saw; none for an imposed motion.
+    pub monitors: Option<MonitorReport>,
     /// Digest of the trajectory: XXH3-128 in hexadecimal digits.
     pub digest: String,
     /// How it ended.
@@ -191,9 +196,7 @@ struct Run<'a> {
     state: PlantState,
     metrics: Accumulator,
     digest: Digest,
-    authority: Option<Force<f64, 3>>,
-    /// Whether the reaching condition held at every sample; none before the first.
-    reaching: Option<bool>,
+    monitors: Monitors,
     crossed_at: Option<f64>,
 }
 
@@ -206,8 +209,7 @@ impl<'a> Run<'a> {
             state: simulation.initial,
             metrics: Accumulator::new(clock.duration(), clock.period),
             digest: Digest::new(),
-            authority: simulation.stack.law().authority(),
-            reaching: None,
+            monitors: Monitors::new(simulation.stack.law().authority()),
             crossed_at: None,
         }
     }
@@ -263,6 +265,7 @@ impl<'a> Run<'a> {
             saturated: output.status.saturated,
             within_limits,
         });
+        self.monitors.tick(t, output);
         self.digest.add(t, q, nu, &output.torque);
     }
 
@@ -283,14 +286,9 @@ impl<'a> Run<'a> {
         let margin = &stack.gains().reaching_margin;
         let required =
             required_gain((plant.robot(), stack.learns()), (&sines.posture, nu), signals, &external, margin);
-        if let Some(authority) = &self.authority {
-            // A law has to offer what is asked for but for rounding.
-            let met = required
-                .channels()
-                .zip(authority.channels())
-                .all(|(needed, offered)| needed <= offered + 1e-9 * (1.0 + offered));
-            self.reaching = Some(met && self.reaching.unwrap_or(true));
-        }
+        let c = &stack.outer().params().sliding_gain;
+        let lyapunov = Lyapunov::evaluate(plant.robot(), (sines, nu), output, &external, c);
+        self.monitors.sample(&lyapunov, &required);
         Sample {
             t,
             state: &self.state,
@@ -299,6 +297,7 @@ impl<'a> Run<'a> {
             torque: &output.torque,
             external,
             required_gain: required,
+            lyapunov,
             manipulability_squared,
             output: Some(output),
         }
@@ -318,7 +317,8 @@ impl<'a> Run<'a> {
 
     fn result(self, ending: Ending) -> RunResult {
         RunResult {
-            metrics: self.metrics.finish(self.reaching),
+            metrics: self.metrics.finish(self.monitors.reaching()),
+            monitors: Some(self.monitors.report(self.metrics.ticks())),
             digest: self.digest.finish(),
             ending,
             joint_limit_crossed_at: self.crossed_at,

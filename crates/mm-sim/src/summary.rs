@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::metrics::Metrics;
+use crate::monitors::{Lasting, MonitorReport};
 use crate::scenario::{Bounds, Expect};
 use crate::simulation::{Ending, RunResult};
 
@@ -25,6 +26,8 @@ pub struct Summary {
     pub seed: u64,
     /// Metrics over the ticks simulated.
     pub metrics: Metrics,
+    /// What the monitors saw; none for an imposed motion.
+    pub monitors: Option<MonitorReport>,
     /// XXH3-128 of the trajectory.
     pub digest: String,
     /// Simulated seconds per second of wall time.
@@ -63,7 +66,22 @@ pub fn warnings(result: &RunResult, speed_limit: f64) -> Vec<String> {
         let times = m.joint_limit_crossings.max(1);
         all.push(format!("a joint was outside its limits, first at t = {t:.3} s, {times} time(s) in all"));
     }
+    if let Some(monitors) = &result.monitors {
+        let told = [
+            ("the outer loop limited its speed", monitors.speed_limited),
+            ("the outer loop held a joint back from its limit", monitors.joint_limited),
+            ("the arm was near a singularity", monitors.near_singular),
+        ];
+        all.extend(told.into_iter().filter_map(|(what, lasting)| during(what, lasting)));
+    }
     all
+}
+
+/// What was so in some part of the run, in words; none if it never was.
+fn during(what: &str, Lasting { fraction, first_s }: Lasting) -> Option<String> {
+    let percent = 100.0 * fraction;
+    let part = if percent < 0.1 { "less than 0.1".to_owned() } else { format!("{percent:.1}") };
+    first_s.map(|t| format!("{what} in {part} % of the run, first at t = {t:.3} s"))
 }
 
 /// How a run ended, unless it finished.

@@ -53,7 +53,11 @@ const KEYS: &str = "schema scenario controller duration_s plant_step_s control_p
     metrics.peak_torque_n_m.right metrics.peak_torque_n_m.left metrics.peak_torque_n_m.joints \
     metrics.effort_n2_m2_s metrics.energy_j metrics.saturated_fraction metrics.max_speed_m_s \
     metrics.min_manipulability metrics.sliding_band metrics.joint_limit_crossings metrics.reaching_condition_met \
-    digest real_time_factor wall_s log warnings";
+    monitors.lyapunov_max_j monitors.lyapunov_rate_max_w monitors.reaching_bound_max monitors.reaching_met_fraction \
+    monitors.torque_limited_fraction.right monitors.torque_limited_fraction.left \
+    monitors.torque_limited_fraction.joints monitors.near_singular.fraction monitors.near_singular.first_s \
+    monitors.speed_limited.fraction monitors.speed_limited.first_s monitors.joint_limited.fraction \
+    monitors.joint_limited.first_s digest real_time_factor wall_s log warnings";
 
 fn summary(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("not one JSON object ({error}):\n{text}"))
@@ -117,7 +121,9 @@ fn json_is_one_object_with_the_promised_keys() {
     assert!(digest.len() == 32 && digest.chars().all(|c| c.is_ascii_hexdigit()), "the digest {digest}");
     let mut undefined = Vec::new();
     nulls(&value, "", &mut undefined);
-    assert!(undefined.is_empty(), "everything is defined in this run, but for {undefined:?}");
+    let never =
+        ["near_singular", "speed_limited", "joint_limited"].map(|what| format!(".monitors.{what}.first_s"));
+    assert_eq!(undefined, never, "all is defined in this run, but for when what never was began");
     let log = complete_log(&folder.path("out/square.mcap"));
     assert_eq!(summary(&log.attachments["summary.json"]), value, "the same summary in the log");
 }
@@ -136,6 +142,7 @@ fn no_log_and_quiet() {
     let value = summary(&imposed.stdout);
     assert_eq!(value["controller"], "none", "imposed velocities have no law");
     assert!(value["metrics"]["reaching_condition_met"].is_null(), "nor a reaching condition");
+    assert!(value["monitors"].is_null(), "nor monitors");
 }
 
 #[test]

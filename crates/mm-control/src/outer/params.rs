@@ -26,12 +26,22 @@ pub struct OuterParams<T, const N: usize> {
     pub manipulability_threshold: T,
     /// Largest damping: lambda^2 = max^2 (1 - w^2/w0^2)^2 below the threshold, 0 above it.
     pub damping_max: T,
-    /// Plain minimum norm (3.62): no posture task, no damping, W = I. The arm then drifts until it is stretched.
+    /// Largest speed |K e| that the correction of the tip's error asks for, m/s; a large number switches the limit off.
+    pub correction_speed_limit: T,
+    /// gamma: -gamma (q - lo) <= dq_c <= gamma (hi - q) holds for the joint rates asked for, 1/s. 0 sets no bound, on the forward
+    /// speed neither.
+    pub joint_limit_rate: T,
+    /// Time from the first update over which the base is held and the arm alone follows, s.
+    pub base_hold: T,
+    /// Time over which the base's share then rises smoothly from 0 to 1, s.
+    pub base_release: T,
+    /// Plain minimum norm (3.62): no posture task, no damping, no bounds on rates, W = I. The arm then drifts until it is
+    /// stretched.
     pub minimum_norm: bool,
 }
 
 impl<T: Real, const N: usize> Default for OuterParams<T, N> {
-    /// K = 18/s, c = 20/s, W = I, posture gain 1/s; limits, damping and climb as their fields say.
+    /// K = 18/s up to 1 m/s, c = 20/s, W = I, posture gain 1/s, gamma = 10/s; limits, damping and climb as their fields say.
     fn default() -> Self {
         let n = T::from_f64;
         Self {
@@ -44,6 +54,10 @@ impl<T: Real, const N: usize> Default for OuterParams<T, N> {
             manipulability_gain: n(0.01),
             manipulability_threshold: n(0.1),
             damping_max: n(0.1),
+            correction_speed_limit: T::ONE,
+            joint_limit_rate: n(10.0),
+            base_hold: T::ZERO,
+            base_release: T::ZERO,
             minimum_norm: false,
         }
     }
@@ -54,7 +68,8 @@ where
     Robot<T, N>: Mechanism<T, N>,
 {
     /// The defaults for a robot: a small arm, whose manipulability is small everywhere, counts as near a singularity only below
-    /// 22 % of what it has in its rest posture, and a joint with little room is pushed off its limits in a quarter of it.
+    /// 22 % of what it has in its rest posture, a joint with little room is pushed off its limits in a quarter of it, and errors are
+    /// corrected at half the speed up to which the model holds, which leaves the other half to the reference.
     #[must_use]
     pub fn for_robot(robot: &Robot<T, N>) -> Self {
         let rest = robot.manipulability_squared(&robot.posture(&robot.params().rest_posture));
@@ -69,7 +84,8 @@ where
             .joints
             .iter()
             .fold(default.joint_limit_margin, |least, &(lo, hi)| least.min(quarter * (hi - lo)));
-        Self { manipulability_threshold, joint_limit_margin, ..default }
+        let correction_speed_limit = T::HALF * robot.params().limits.speed;
+        Self { manipulability_threshold, joint_limit_margin, correction_speed_limit, ..default }
     }
 }
 
@@ -94,12 +110,17 @@ impl<T: Real, const N: usize> OuterParams<T, N> {
         check::non_negative(self.manipulability_gain, "manipulability_gain_rad_s")?;
         check::positive(self.manipulability_threshold, "manipulability_threshold")?;
         check::non_negative(self.damping_max, "damping_max")?;
+        check::positive(self.correction_speed_limit, "correction_speed_limit_m_s")?;
+        check::non_negative(self.joint_limit_rate, "joint_limit_rate_1_s")?;
+        check::non_negative(self.base_hold, "base_hold_s")?;
+        check::non_negative(self.base_release, "base_release_s")?;
         if self.minimum_norm {
             self.weights = Velocity::splat(T::ONE);
             self.posture_gain = T::ZERO;
             self.joint_limit_gain = T::ZERO;
             self.manipulability_gain = T::ZERO;
             self.damping_max = T::ZERO;
+            self.joint_limit_rate = T::ZERO;
         }
         Ok(self)
     }

@@ -11,6 +11,7 @@ use super::interrupt;
 use crate::VERSION;
 use crate::experiment::{Experiment, controller_name};
 use crate::log::{LogError, LogHeader, LogSample, LogWriter, Outcome, RobotShape};
+use crate::monitors::cut_torques;
 use crate::scenario::Loaded;
 use crate::simulation::{Recorder, Sample};
 
@@ -91,6 +92,8 @@ impl RunRecorder {
             disturbance: torques(&self.robot.torque_of(&sample.external)),
             manipulability: Real::sqrt(Real::max(sample.manipulability_squared, 0.0)),
             reaching_bound: forces(&sample.required_gain),
+            lyapunov: sample.lyapunov.value,
+            lyapunov_rate: sample.lyapunov.rate,
             ..LogSample::default()
         };
         if let Some(output) = sample.output {
@@ -103,6 +106,9 @@ impl RunRecorder {
             out.damping = Real::sqrt(signals.damping_squared);
             out.saturated = output.status.saturated;
             out.near_singular = output.status.near_singular;
+            out.speed_limited = output.status.speed_limited;
+            out.joint_limited = output.status.joint_limited;
+            out.torque_limited = cut_torques(output);
         } else {
             out.nu_c = velocities(&state.nu);
         }

@@ -124,6 +124,7 @@ pub(super) fn execute(
         control_period_s: file.simulation.control_period_s,
         seed: file.simulation.seed,
         metrics: result.metrics,
+        monitors: result.monitors,
         digest: result.digest,
         real_time_factor: simulated / wall_s,
         wall_s,

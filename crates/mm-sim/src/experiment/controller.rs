@@ -49,7 +49,7 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
         let key = match error {
             SetupError::Param(error) => {
                 let name = error.parameter();
-                let outer = OUTER.contains(&name) || name.contains("_rad");
+                let outer = OUTER.contains(&name) || name.starts_with("base_") || name.contains("_rad");
                 format!("controller.{}.{name}", if outer { "outer" } else { "gains" })
             }
             _ => "controller.gains".to_owned(),
@@ -59,13 +59,15 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
 }
 
 /// Parameters of the outer loop; besides these, those with an angle in their unit.
-const OUTER: [&str; 6] = [
+const OUTER: [&str; 8] = [
     "position_gain_1_s",
     "sliding_gain_1_s",
     "posture_gain_1_s",
     "weights",
     "damping_max",
     "manipulability_threshold",
+    "correction_speed_limit_m_s",
+    "joint_limit_rate_1_s",
 ];
 
 fn outer(robot: &Robot<f64, 3>, raw: &scenario::Outer) -> OuterParams<f64, 3> {
@@ -86,6 +88,10 @@ fn outer(robot: &Robot<f64, 3>, raw: &scenario::Outer) -> OuterParams<f64, 3> {
     set(&mut outer.manipulability_gain, raw.manipulability_gain_rad_s);
     set(&mut outer.manipulability_threshold, raw.manipulability_threshold);
     set(&mut outer.damping_max, raw.damping_max);
+    set(&mut outer.correction_speed_limit, raw.correction_speed_limit_m_s);
+    set(&mut outer.joint_limit_rate, raw.joint_limit_rate_1_s);
+    outer.base_hold = raw.base_hold_s;
+    outer.base_release = raw.base_release_s;
     outer.minimum_norm = raw.minimum_norm;
     outer
 }

@@ -29,8 +29,12 @@ const fn number(name: &'static str, comment: &'static str, value: fn(&LogSample)
     Number { name, comment, value }
 }
 
+const fn flag(name: &'static str, comment: &'static str, value: fn(&LogSample) -> bool) -> Flag {
+    Flag { name, comment, value }
+}
+
 /// The numbers, in the order they are written after the header.
-pub(super) static NUMBERS: [Number; 68] = [
+pub(super) static NUMBERS: [Number; 70] = [
     number("t_s", "time of the scenario", |s| s.t_s),
     number("x_m", "midpoint of the wheel axle", |s| s.x),
     number("y_m", "midpoint of the wheel axle", |s| s.y),
@@ -115,12 +119,25 @@ pub(super) static NUMBERS: [Number; 68] = [
     number("reaching_bound_joint3_n_m", "smallest switching gain that reaches: joint 3", |s| {
         s.reaching_bound[4]
     }),
+    number("lyapunov_j", "V = s'Ms/2 with the true inertia", |s| s.lyapunov),
+    number("lyapunov_rate_w", "its rate along the true motion", |s| s.lyapunov_rate),
 ];
 
 /// The flags, after the numbers.
-pub(super) static FLAGS: [Flag; 2] = [
-    Flag { name: "saturated", comment: "a torque was limited", value: |s| s.saturated },
-    Flag { name: "near_singular", comment: "the damping was active", value: |s| s.near_singular },
+pub(super) static FLAGS: [Flag; 9] = [
+    flag("saturated", "a torque was limited", |s| s.saturated),
+    flag("near_singular", "the damping was active", |s| s.near_singular),
+    flag("speed_limited", "the correction of the tip's error was cut to its largest speed", |s| {
+        s.speed_limited
+    }),
+    flag("joint_limited", "a joint's rate was held to the bound that keeps it within its limits", |s| {
+        s.joint_limited
+    }),
+    flag("torque_limited_right", "cut to the limit: right wheel", |s| s.torque_limited[0]),
+    flag("torque_limited_left", "cut to the limit: left wheel", |s| s.torque_limited[1]),
+    flag("torque_limited_joint1", "cut to the limit: joint 1", |s| s.torque_limited[2]),
+    flag("torque_limited_joint2", "cut to the limit: joint 2", |s| s.torque_limited[3]),
+    flag("torque_limited_joint3", "cut to the limit: joint 3", |s| s.torque_limited[4]),
 ];
 
 /// Names of the fields of `/control` after its header: the numbers, then the flags.

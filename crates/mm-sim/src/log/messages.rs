@@ -117,7 +117,7 @@ mod tests {
         let bytes = cdr.bytes();
         assert_eq!(bytes.len(), numbers + 8 * NUMBERS.len() + FLAGS.len(), "size of the message");
         assert_eq!(bytes[numbers..numbers + 8], 1.0_f64.to_le_bytes(), "the first number is the time");
-        assert_eq!(bytes[bytes.len() - 2..], [0, 1], "the flags");
+        assert_eq!(bytes[bytes.len() - FLAGS.len()..], [0, 1, 0, 0, 0, 0, 0, 0, 0], "the flags");
     }
 
     #[test]

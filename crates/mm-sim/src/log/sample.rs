@@ -52,10 +52,20 @@ pub struct LogSample {
     pub damping: f64,
     /// Smallest switching gain that the reaching condition allows, N and N m.
     pub reaching_bound: [f64; 5],
+    /// Lyapunov function of the sliding mode, J.
+    pub lyapunov: f64,
+    /// Its rate, W.
+    pub lyapunov_rate: f64,
     /// Whether a torque was limited.
     pub saturated: bool,
     /// Whether the damping was active.
     pub near_singular: bool,
+    /// Whether the speed of the correction was limited.
+    pub speed_limited: bool,
+    /// Whether a joint was held to the bound of its rate.
+    pub joint_limited: bool,
+    /// Which torques were limited.
+    pub torque_limited: [bool; 5],
 }
 
 impl LogSample {

@@ -16,6 +16,7 @@ static BUNDLED: &[(&str, &str)] = bundle![
     "verify-joints23",
     "verify-moving-base",
     "sinusoid",
+    "sinusoid-base-held",
     "spiral",
     "square",
     "square-smooth",

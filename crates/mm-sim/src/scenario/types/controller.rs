@@ -81,7 +81,21 @@ pub struct Outer {
     /// Manipulability below which the damping begins. Default: 0.1, at most 22 % of that of the rest posture.
     #[schemars(with = "Option<Positive>")]
     pub manipulability_threshold: Option<f64>,
-    /// The plain pseudo-inverse (3.62): no weights, damping or null space.
+    /// Largest speed that the correction of the position error asks for. Default: half the speed up to which the model holds, 1.
+    #[schemars(with = "Option<Positive>")]
+    pub correction_speed_limit_m_s: Option<f64>,
+    /// Bound on the joint rates asked for, per distance from the joint limit ahead; 0 sets none, on the base's speed neither. Default: 10.
+    #[schemars(with = "Option<NonNegative>")]
+    pub joint_limit_rate_1_s: Option<f64>,
+    /// Time from the start over which the base is held and the arm alone follows.
+    #[serde(default)]
+    #[schemars(with = "NonNegative")]
+    pub base_hold_s: f64,
+    /// Time over which the base is then released smoothly.
+    #[serde(default)]
+    #[schemars(with = "NonNegative")]
+    pub base_release_s: f64,
+    /// The plain pseudo-inverse (3.62): no weights, damping, null space or bounds on rates.
     #[serde(default)]
     pub minimum_norm: bool,
 }
