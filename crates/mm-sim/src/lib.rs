@@ -16,6 +16,7 @@ pub mod log;
 pub mod metrics;
 pub mod plant;
 pub mod random;
+pub mod reproduce;
 pub mod scenario;
 pub mod simulation;
 pub mod summary;
