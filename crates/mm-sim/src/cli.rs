@@ -3,6 +3,7 @@
 mod compare;
 mod interrupt;
 mod recorder;
+mod reproduce;
 mod run;
 mod scenario;
 mod table;
@@ -50,6 +51,8 @@ enum Command {
     Run(RunArgs),
     /// Run one scenario with several controllers and compare them in one table.
     Compare(CompareArgs),
+    /// Run all experiments of the thesis: its figures, and its numbers beside ours.
+    Reproduce(ReproduceArgs),
     /// List, show and check scenario files, or print their JSON schema.
     #[command(subcommand)]
     Scenario(ScenarioCommand),
@@ -97,6 +100,25 @@ struct CompareArgs {
     /// Controllers to compare, separated by commas.
     #[arg(long, value_name = "KIND,...", value_delimiter = ',', required = true, value_parser = kinds())]
     controllers: Vec<String>,
+}
+
+#[derive(Debug, Clone, Args)]
+struct ReproduceArgs {
+    /// Folder for figures, data and tables.
+    #[arg(long, value_name = "DIR", default_value = "./out/reproduce")]
+    out: PathBuf,
+    /// Threads; as many as there are cores by default. The result does not depend on it.
+    #[arg(long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Set a key of every scenario, by its dotted path; repeatable. Then it is no longer the thesis's experiment.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Print the report as JSON on standard output, and nothing else there.
+    #[arg(long)]
+    json: bool,
+    /// No progress, no table.
+    #[arg(long, short)]
+    quiet: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -154,6 +176,7 @@ where
         None => run::run(&cli.run),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Compare(args)) => compare::compare(&args),
+        Some(Command::Reproduce(args)) => Ok(reproduce::reproduce(&args)),
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
     });
     outcome.unwrap_or_else(|error| {
