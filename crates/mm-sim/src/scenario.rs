@@ -12,6 +12,7 @@ mod bundled;
 mod check;
 mod diagnostic;
 mod docs;
+mod gains;
 mod nearest;
 mod rules;
 mod schema;
@@ -29,8 +30,8 @@ pub use docs::markdown;
 pub use schema::schema;
 pub use types::{
     AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget, Expect,
-    Friction, Gains, Initial, Integrator, Link, Motion, Outer, Peaks, PerAxis, PerChannel, Plant, Preset,
-    Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals, Trajectory,
+    Friction, Gains, GainsFor, Initial, Integrator, Link, Motion, Outer, Peaks, PerAxis, PerChannel, Plant,
+    Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals, Trajectory,
 };
 
 /// The name that an argument of the command line has in messages.
@@ -157,6 +158,7 @@ fn assemble(name: &str, text: &str, folder: &Path, sets: &[String]) -> Result<Lo
     problems.extend(check::check(&sources, &schema::SCENARIO, &root));
     problems.extend(rules::check(&root));
     robot_file(&mut root, &mut sources, folder, &mut problems)?;
+    gains::resolve(&mut root, &mut sources, folder, &mut problems)?;
     if !problems.is_empty() {
         return Err(ScenarioError::new(&sources, problems));
     }
@@ -178,15 +180,17 @@ fn parse(sources: &[Source], index: usize) -> Result<Node, ScenarioError> {
     })
 }
 
-/// Reads the file that `robot.file` names and lays the scenario's own fields over it.
-fn robot_file(
-    root: &mut Node,
+/// Parses the file that a key names, if there is one: a name in the scenario is sought in its folder, one given by an argument
+/// from the working directory.
+fn included(
+    root: &Node,
+    (key, what): (&str, &str),
     sources: &mut Vec<Source>,
     folder: &Path,
     problems: &mut Vec<Problem>,
-) -> Result<(), ScenarioError> {
-    let Some(file) = root.find("robot.file") else { return Ok(()) };
-    let Some(name) = file.as_str() else { return Ok(()) };
+) -> Result<Option<Node>, ScenarioError> {
+    let Some(file) = root.find(key) else { return Ok(None) };
+    let Some(name) = file.as_str() else { return Ok(None) };
     let is_in_scenario = file.place.source == 0;
     let path = if is_in_scenario { folder.join(name) } else { PathBuf::from(name) };
     let shown = path.display().to_string();
@@ -194,13 +198,25 @@ fn robot_file(
         Ok(text) => text,
         Err(error) => {
             let message = format!("cannot read `{shown}`: {error}");
-            problems.push(Problem::new("robot.file", message, file.place.clone()).expected("a robot file"));
-            return Ok(());
+            problems.push(Problem::new(key, message, file.place.clone()).expected(what));
+            return Ok(None);
         }
     };
     let source = sources.len();
     sources.push(Source { name: shown, text });
-    let mut below = parse(sources, source)?;
+    parse(sources, source).map(Some)
+}
+
+/// Reads the file that `robot.file` names and lays the scenario's own fields over it.
+fn robot_file(
+    root: &mut Node,
+    sources: &mut Vec<Source>,
+    folder: &Path,
+    problems: &mut Vec<Problem>,
+) -> Result<(), ScenarioError> {
+    let Some(mut below) = included(root, ("robot.file", "a robot file"), sources, folder, problems)? else {
+        return Ok(());
+    };
     let found = check::check(sources, &schema::ROBOT, &below);
     problems.extend(found);
     problems.extend(rules::check_robot(&below));

@@ -5,13 +5,16 @@ use std::sync::LazyLock;
 use schemars::JsonSchema;
 use serde_json::{Map, Value};
 
-use super::types::{RobotFields, ScenarioFile};
+use super::types::{GainsFor, RobotFields, ScenarioFile};
 
 /// The schema of a scenario file.
 pub(super) static SCENARIO: LazyLock<Value> = LazyLock::new(generate::<ScenarioFile>);
 
 /// The schema of a robot file.
 pub(super) static ROBOT: LazyLock<Value> = LazyLock::new(generate::<RobotFields>);
+
+/// The schema of a file of gains.
+pub(super) static GAINS: LazyLock<Value> = LazyLock::new(generate::<GainsFor>);
 
 /// Returns the JSON Schema (draft 2020-12) of a scenario file, for editors and for the checker.
 #[must_use]
@@ -194,5 +197,6 @@ mod tests {
         }
         walk("", &SCENARIO, false);
         walk("", &ROBOT, false);
+        walk("", &GAINS, false);
     }
 }

@@ -15,7 +15,8 @@ use ranges::{NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use controller::{Controller, ControllerKind, Gains, Outer, PerAxis, PerChannel};
+pub(super) use controller::SAME_KEYS;
+pub use controller::{Controller, ControllerKind, Gains, GainsFor, Outer, PerAxis, PerChannel};
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
 pub use robot::{Friction, Link, Plant, Preset, Robot, RobotFields};
