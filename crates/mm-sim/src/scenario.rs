@@ -31,7 +31,8 @@ pub use schema::schema;
 pub use types::{
     AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget, Expect,
     Friction, Gains, GainsFor, Initial, Integrator, Link, Motion, Outer, Peaks, PerAxis, PerChannel, Plant,
-    Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals, Trajectory,
+    PlantScale, Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals,
+    Trajectory,
 };
 
 /// The name that an argument of the command line has in messages.

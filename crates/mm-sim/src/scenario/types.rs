@@ -19,7 +19,7 @@ pub(super) use controller::SAME_KEYS;
 pub use controller::{Controller, ControllerKind, Gains, GainsFor, Outer, PerAxis, PerChannel};
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
-pub use robot::{Friction, Link, Plant, Preset, Robot, RobotFields};
+pub use robot::{Friction, Link, Plant, PlantScale, Preset, Robot, RobotFields};
 pub use trajectory::{Motion, Segment, Trajectory};
 
 /// The period of the plant and of the controller when the file names none, in seconds.
@@ -119,6 +119,9 @@ pub struct Initial {
     /// Places the base by the reference instead of by `base_pose`. Default: `on-reference`, when
     /// `base_pose` is not given.
     pub tip: Option<TipStart>,
+    /// Moves the tip away from where it would start, in the world frame: the base by x and y, the arm, bent in its own plane, by z.
+    #[serde(default)]
+    pub offset_m: [f64; 3],
 }
 
 /// Where the tip of the arm is at the start.
