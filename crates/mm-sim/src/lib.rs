@@ -13,11 +13,15 @@ pub mod experiment;
 pub mod imposed;
 pub mod log;
 pub mod metrics;
+pub mod parallel;
 pub mod plant;
 pub mod random;
 pub mod scenario;
+mod shell;
 pub mod simulation;
+mod stopper;
 pub mod summary;
+pub mod sweep;
 pub mod trajectory;
 
 /// Version of the stack.

@@ -31,8 +31,8 @@ pub use schema::schema;
 pub use types::{
     AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget, Expect,
     Friction, Gains, GainsFor, Initial, Integrator, Link, Motion, Outer, Peaks, PerAxis, PerChannel, Plant,
-    PlantScale, Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals,
-    Trajectory,
+    PlantScale, Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, Sweep, TipStart,
+    Totals, Trajectory,
 };
 
 /// The name that an argument of the command line has in messages.
@@ -45,7 +45,8 @@ pub struct Loaded {
     pub file: ScenarioFile,
     sources: Vec<Source>,
     root: Node,
-    is_modified: bool,
+    folder: PathBuf,
+    sets: Vec<String>,
 }
 
 impl Loaded {
@@ -70,7 +71,29 @@ impl Loaded {
     /// Whether any edit was laid over the file.
     #[must_use]
     pub const fn is_modified(&self) -> bool {
-        self.is_modified
+        !self.sets.is_empty()
+    }
+
+    /// Returns a digest, XXH3-128 in hexadecimal digits, of every text that the scenario is made of: its file, the edits, the
+    /// files that it names.
+    #[must_use]
+    pub fn digest(&self) -> String {
+        let mut hash = xxhash_rust::xxh3::Xxh3::new();
+        for Source { text, .. } in &self.sources {
+            hash.update(&(text.len() as u64).to_le_bytes());
+            hash.update(text.as_bytes());
+        }
+        format!("{:032x}", hash.digest128())
+    }
+
+    /// Returns the same scenario with more edits laid over it, as if they had been given to [`load`] after the others.
+    ///
+    /// # Errors
+    ///
+    /// As [`load`].
+    pub fn edited(&self, more: &[String]) -> Result<Self, ScenarioError> {
+        let sets = [self.sets.as_slice(), more].concat();
+        assemble(self.source_name(), self.text(), &self.folder, &sets)
     }
 
     /// Returns the error that something is wrong at a dotted key, for example `robot.link.1.mass_kg`.
@@ -167,7 +190,7 @@ fn assemble(name: &str, text: &str, folder: &Path, sets: &[String]) -> Result<Lo
         let problem = Problem::new("", error.to_string(), root.place.clone());
         ScenarioError::new(&sources, vec![problem])
     })?;
-    Ok(Loaded { file, sources, root, is_modified: !sets.is_empty() })
+    Ok(Loaded { file, sources, root, folder: folder.to_path_buf(), sets: sets.to_vec() })
 }
 
 fn parse(sources: &[Source], index: usize) -> Result<Node, ScenarioError> {

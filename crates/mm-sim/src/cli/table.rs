@@ -10,7 +10,7 @@ const TABLE_5_2: [(&str, [f64; 4]); 2] =
     [("thesis, its BSMC", [3.91, 4.637, 2.431, 10.978]), ("thesis, its BFSMC", [2.06, 4.265, 1.232, 7.557])];
 
 /// A number with four significant digits.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let size = value.abs();
     if !value.is_finite() {
         "-".to_owned()

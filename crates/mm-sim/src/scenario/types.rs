@@ -9,6 +9,7 @@ mod disturbance;
 mod expect;
 mod ranges;
 mod robot;
+mod sweep;
 mod trajectory;
 
 use ranges::{NonNegative, Positive};
@@ -20,6 +21,7 @@ pub use controller::{Controller, ControllerKind, Gains, GainsFor, Outer, PerAxis
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
 pub use robot::{Friction, Link, Plant, PlantScale, Preset, Robot, RobotFields};
+pub use sweep::Sweep;
 pub use trajectory::{Motion, Segment, Trajectory};
 
 /// The period of the plant and of the controller when the file names none, in seconds.
@@ -61,6 +63,10 @@ pub struct ScenarioFile {
     /// Bounds on the metrics of the run, checked at its end; the keys are those of `metrics` in the summary.
     #[serde(default)]
     pub expect: Expect,
+    /// What `mmsim sweep` varies: each sample draws every quantity anew, uniformly in its range, and leaves alone what has range
+    /// zero.
+    #[serde(default)]
+    pub sweep: Sweep,
 }
 
 /// Clock, integration and randomness.
