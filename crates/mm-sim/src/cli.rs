@@ -8,6 +8,7 @@ mod run;
 mod scenario;
 mod sweep;
 mod table;
+mod tune;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -38,7 +39,8 @@ pub enum Exit {
     mmsim --scenario square.toml\n  \
     mmsim --scenario square --controller bsmc --set plant.mass_scale=1.25 --json\n  \
     mmsim compare --scenario square-compare --controllers bsmc,bsmc-sat,bfsmc-thesis,bfsmc\n  \
-    mmsim sweep --scenario square-compare --samples 1000\n\n\
+    mmsim sweep --scenario square-compare --samples 1000\n  \
+    mmsim tune --scenario square-compare --controller bfsmc -o gains.toml\n\n\
     Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed")]
 struct Cli {
     #[command(subcommand)]
@@ -55,6 +57,8 @@ enum Command {
     Compare(CompareArgs),
     /// Run many random samples of one scenario: statistics, failures and how to run each again.
     Sweep(sweep::SweepArgs),
+    /// Search for the gains that cost least on a scenario and write them as TOML.
+    Tune(tune::TuneArgs),
     /// List, show and check scenario files, or print their JSON schema.
     #[command(subcommand)]
     Scenario(ScenarioCommand),
@@ -165,6 +169,7 @@ where
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Compare(args)) => compare::compare(&args),
         Some(Command::Sweep(args)) => sweep::sweep(&args),
+        Some(Command::Tune(args)) => tune::tune(&args),
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
     });
     outcome.unwrap_or_else(|error| {

@@ -23,6 +23,7 @@ mod stopper;
 pub mod summary;
 pub mod sweep;
 pub mod trajectory;
+pub mod tune;
 
 /// Version of the stack.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -32,7 +32,7 @@ pub use types::{
     AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget, Expect,
     Friction, Gains, GainsFor, Initial, Integrator, Link, Motion, Outer, Peaks, PerAxis, PerChannel, Plant,
     PlantScale, Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, Sweep, TipStart,
-    Totals, Trajectory,
+    Totals, Trajectory, Tune,
 };
 
 /// The name that an argument of the command line has in messages.

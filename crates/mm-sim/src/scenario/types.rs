@@ -11,6 +11,7 @@ mod ranges;
 mod robot;
 mod sweep;
 mod trajectory;
+mod tune;
 
 use ranges::{NonNegative, Positive};
 use schemars::JsonSchema;
@@ -23,6 +24,7 @@ pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
 pub use robot::{Friction, Link, Plant, PlantScale, Preset, Robot, RobotFields};
 pub use sweep::Sweep;
 pub use trajectory::{Motion, Segment, Trajectory};
+pub use tune::Tune;
 
 /// The period of the plant and of the controller when the file names none, in seconds.
 pub(super) const DEFAULT_PERIOD_S: f64 = 1e-3;
@@ -67,6 +69,13 @@ pub struct ScenarioFile {
     /// zero.
     #[serde(default)]
     pub sweep: Sweep,
+    /// Budget and cost of `mmsim tune`, a particle swarm (4.45), (4.46) over factors on groups of the law's default gains.
+    ///
+    /// The cost of a run is its ITAE sum in m s^2 plus `torque_variation_weight` times its torque variation in N m/s plus
+    /// `effort_weight` times its effort in N^2 m^2 s. A run that ends early costs 1e6 and, the earlier it ends, up to as much
+    /// again.
+    #[serde(default)]
+    pub tune: Tune,
 }
 
 /// Clock, integration and randomness.
