@@ -2,11 +2,14 @@
 
 mod compare;
 mod interrupt;
+mod progress;
 mod recorder;
 mod reproduce;
 mod run;
 mod scenario;
+mod sweep;
 mod table;
+mod tune;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -36,7 +39,9 @@ pub enum Exit {
 #[command(after_help = "Examples:\n  \
     mmsim --scenario square.toml\n  \
     mmsim --scenario square --controller bsmc --set plant.mass_scale=1.25 --json\n  \
-    mmsim compare --scenario square-compare --controllers bsmc,bsmc-sat,bfsmc-thesis,bfsmc\n\n\
+    mmsim compare --scenario square-compare --controllers bsmc,bsmc-sat,bfsmc-thesis,bfsmc\n  \
+    mmsim sweep --scenario square-compare --samples 1000\n  \
+    mmsim tune --scenario square-compare --controller bfsmc -o gains.toml\n\n\
     Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed")]
 struct Cli {
     #[command(subcommand)]
@@ -53,6 +58,10 @@ enum Command {
     Compare(CompareArgs),
     /// Run all experiments of the thesis: its figures, and its numbers beside ours.
     Reproduce(ReproduceArgs),
+    /// Run many random samples of one scenario: statistics, failures and how to run each again.
+    Sweep(sweep::SweepArgs),
+    /// Search for the gains that cost least on a scenario and write them as TOML.
+    Tune(tune::TuneArgs),
     /// List, show and check scenario files, or print their JSON schema.
     #[command(subcommand)]
     Scenario(ScenarioCommand),
@@ -144,15 +153,20 @@ fn kinds() -> PossibleValuesParser {
     LawKind::ALL.map(LawKind::name).into_iter().chain(["none"]).collect::<Vec<_>>().into()
 }
 
+/// A scenario's name; without one, a usage error.
+fn needs_scenario(name: Option<&str>) -> Result<&str, clap::Error> {
+    name.ok_or_else(|| {
+        Cli::command().error(
+            ErrorKind::MissingRequiredArgument,
+            "name a scenario: --scenario FILE, or the name of a bundled one (`mmsim scenario list`)",
+        )
+    })
+}
+
 impl Common {
     /// The scenario's name; without one, a usage error.
     fn scenario(&self) -> Result<&str, clap::Error> {
-        self.scenario.as_deref().ok_or_else(|| {
-            Cli::command().error(
-                ErrorKind::MissingRequiredArgument,
-                "name a scenario: --scenario FILE, or the name of a bundled one (`mmsim scenario list`)",
-            )
-        })
+        needs_scenario(self.scenario.as_deref())
     }
 
     /// The edits of the scenario that the options stand for.
@@ -177,6 +191,8 @@ where
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Compare(args)) => compare::compare(&args),
         Some(Command::Reproduce(args)) => Ok(reproduce::reproduce(&args)),
+        Some(Command::Sweep(args)) => sweep::sweep(&args),
+        Some(Command::Tune(args)) => tune::tune(&args),
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
     });
     outcome.unwrap_or_else(|error| {

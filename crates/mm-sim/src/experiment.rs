@@ -34,7 +34,7 @@ impl Experiment {
         let file = &loaded.file;
         let params = robot::params(loaded)?;
         let nominal = robot::checked(loaded, params)?;
-        let mut actual = params.with_mass_scaled(file.plant.mass_scale);
+        let mut actual = robot::scaled(params.with_mass_scaled(file.plant.mass_scale), &file.plant.scale);
         actual.friction = robot::friction(&file.plant.friction);
         let actual = robot::checked(loaded, actual)?;
         let clock = clock(&file.simulation);
@@ -49,6 +49,7 @@ impl Experiment {
                 let message = "imposed velocities leave a controller nothing to do";
                 return Err(loaded.problem("controller.kind", message, "`kind = \"none\"`"));
             }
+            initial::refuse_offset(loaded)?;
             let start = initial::given(loaded, &nominal);
             return Ok(Self::Open(Imposed::build(loaded, segment, (plant, clock), start)?));
         }

@@ -15,13 +15,18 @@ pub mod imposed;
 pub mod log;
 pub mod metrics;
 pub mod monitors;
+pub mod parallel;
 pub mod plant;
 pub mod random;
 pub mod reproduce;
 pub mod scenario;
+mod shell;
 pub mod simulation;
+mod stopper;
 pub mod summary;
+pub mod sweep;
 pub mod trajectory;
+pub mod tune;
 
 /// Version of the stack.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -12,6 +12,7 @@ mod bundled;
 mod check;
 mod diagnostic;
 mod docs;
+mod gains;
 mod nearest;
 mod rules;
 mod schema;
@@ -30,9 +31,9 @@ pub use docs::markdown;
 pub use schema::schema;
 pub use types::{
     AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget, Expect,
-    Friction, Gains, Initial, Integrator, Link, Misprints, Motion, Outer, Peaks, PerAxis, PerChannel, Plant,
-    Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals, Trajectory,
-    WaypointPath,
+    Friction, Gains, GainsFor, Initial, Integrator, Link, Misprints, Motion, Outer, Peaks, PerAxis,
+    PerChannel, Plant, PlantScale, Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation,
+    Sweep, TipStart, Totals, Trajectory, Tune, WaypointPath,
 };
 
 /// The name that an argument of the command line has in messages.
@@ -45,7 +46,8 @@ pub struct Loaded {
     pub file: ScenarioFile,
     sources: Vec<Source>,
     root: Node,
-    is_modified: bool,
+    folder: PathBuf,
+    sets: Vec<String>,
 }
 
 impl Loaded {
@@ -76,7 +78,29 @@ impl Loaded {
     /// Whether any edit was laid over the file.
     #[must_use]
     pub const fn is_modified(&self) -> bool {
-        self.is_modified
+        !self.sets.is_empty()
+    }
+
+    /// Returns a digest, XXH3-128 in hexadecimal digits, of every text that the scenario is made of: its file, the edits, the
+    /// files that it names.
+    #[must_use]
+    pub fn digest(&self) -> String {
+        let mut hash = xxhash_rust::xxh3::Xxh3::new();
+        for Source { text, .. } in &self.sources {
+            hash.update(&(text.len() as u64).to_le_bytes());
+            hash.update(text.as_bytes());
+        }
+        format!("{:032x}", hash.digest128())
+    }
+
+    /// Returns the same scenario with more edits laid over it, as if they had been given to [`load`] after the others.
+    ///
+    /// # Errors
+    ///
+    /// As [`load`].
+    pub fn edited(&self, more: &[String]) -> Result<Self, ScenarioError> {
+        let sets = [self.sets.as_slice(), more].concat();
+        assemble(self.source_name(), self.text(), &self.folder, &sets)
     }
 
     /// Returns the error that something is wrong at a dotted key, for example `robot.link.1.mass_kg`.
@@ -166,6 +190,7 @@ fn assemble(name: &str, text: &str, folder: &Path, sets: &[String]) -> Result<Lo
     problems.extend(rules::check(&root));
     robot_file(&mut root, &mut sources, folder, &mut problems)?;
     waypoints::file(&mut root, &mut sources, folder, &mut problems)?;
+    gains::resolve(&mut root, &mut sources, folder, &mut problems)?;
     if !problems.is_empty() {
         return Err(ScenarioError::new(&sources, problems));
     }
@@ -173,7 +198,7 @@ fn assemble(name: &str, text: &str, folder: &Path, sets: &[String]) -> Result<Lo
         let problem = Problem::new("", error.to_string(), root.place.clone());
         ScenarioError::new(&sources, vec![problem])
     })?;
-    Ok(Loaded { file, sources, root, is_modified: !sets.is_empty() })
+    Ok(Loaded { file, sources, root, folder: folder.to_path_buf(), sets: sets.to_vec() })
 }
 
 fn parse(sources: &[Source], index: usize) -> Result<Node, ScenarioError> {
@@ -198,6 +223,27 @@ fn linked(key: &Node, name: &str, folder: &Path, format: &str) -> Result<Source,
     }
 }
 
+/// Parses the TOML file that a key names, if there is one.
+fn included(
+    root: &Node,
+    (key, what): (&str, &str),
+    sources: &mut Vec<Source>,
+    folder: &Path,
+    problems: &mut Vec<Problem>,
+) -> Result<Option<Node>, ScenarioError> {
+    let Some(file) = root.find(key) else { return Ok(None) };
+    let Some(name) = file.as_str() else { return Ok(None) };
+    let source = sources.len();
+    match linked(file, name, folder, "TOML") {
+        Ok(linked) => sources.push(linked),
+        Err(message) => {
+            problems.push(Problem::new(key, message, file.place.clone()).expected(what));
+            return Ok(None);
+        }
+    }
+    parse(sources, source).map(Some)
+}
+
 /// Reads the file that `robot.file` names and lays the scenario's own fields over it.
 fn robot_file(
     root: &mut Node,
@@ -205,17 +251,9 @@ fn robot_file(
     folder: &Path,
     problems: &mut Vec<Problem>,
 ) -> Result<(), ScenarioError> {
-    let Some(file) = root.find("robot.file") else { return Ok(()) };
-    let Some(name) = file.as_str() else { return Ok(()) };
-    let source = sources.len();
-    match linked(file, name, folder, "TOML") {
-        Ok(linked) => sources.push(linked),
-        Err(message) => {
-            problems.push(Problem::new("robot.file", message, file.place.clone()).expected("a robot file"));
-            return Ok(());
-        }
-    }
-    let mut below = parse(sources, source)?;
+    let Some(mut below) = included(root, ("robot.file", "a robot file"), sources, folder, problems)? else {
+        return Ok(());
+    };
     let found = check::check(sources, &schema::ROBOT, &below);
     problems.extend(found);
     problems.extend(rules::check_robot(&below));

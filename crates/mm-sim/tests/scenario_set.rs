@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 
-use mm_sim::scenario::{self, ControllerKind, Loaded, PerAxis, ScenarioError, TipStart};
+use mm_sim::scenario::{self, ControllerKind, DisturbanceTarget, Loaded, PerAxis, ScenarioError, TipStart};
 
 const PLAIN: &str = "name = \"p\"\n[simulation]\nduration_s = 1\n[trajectory]\nkind = \"square\"\n";
 
@@ -148,6 +148,21 @@ fn robot_files_are_found_beside_the_scenario_and_overridden() {
     std::fs::remove_file(folder.join("r.toml")).unwrap();
     let shown = scenario::load(spec, &[]).err().unwrap_or_else(|| panic!("accepted")).to_string();
     assert!(shown.contains("s.toml:7:8") && shown.contains("r.toml"), "the missing file is named: {shown}");
+}
+
+#[test]
+fn a_table_is_added_as_a_whole() {
+    let torque = |number: usize, joint: &str| {
+        format!("disturbance.{number}={{on=\"{joint}\", shape=\"step\", amplitude_n_m=1}}")
+    };
+    for sets in [[torque(0, "joint1"), torque(1, "joint2")], [torque(1, "joint2"), torque(0, "joint1")]] {
+        let loaded = scenario::load("square", &sets).unwrap_or_else(|error| panic!("{error}"));
+        let on: Vec<_> = loaded.file.disturbance.iter().map(|one| one.on).collect();
+        assert_eq!(on, [DisturbanceTarget::Joint1, DisturbanceTarget::Joint2], "the array of {sets:?}");
+    }
+    let loaded = scenario::load("square-compare", &[torque(1, "joint3")]);
+    let count = loaded.unwrap_or_else(|error| panic!("{error}")).file.disturbance.len();
+    assert_eq!(count, 2, "beside the one of the file");
 }
 
 #[test]

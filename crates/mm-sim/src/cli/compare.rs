@@ -7,10 +7,11 @@ use clap::CommandFactory as _;
 use clap::error::ErrorKind;
 use serde::Serialize;
 
-use super::run::{complain_of, execute, log_path, prepare};
-use super::{Cli, CompareArgs, Exit, print, table};
+use super::run::{complain_of, execute, log_path, prepare, with_causes};
+use super::{Cli, CompareArgs, Exit, complain, print, table};
 use crate::experiment::Experiment;
 use crate::metrics::PerAxisSum;
+use crate::parallel::Pool;
 use crate::scenario::Loaded;
 use crate::summary::Summary;
 
@@ -49,7 +50,14 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
     let mut runs = Vec::new();
     let mut endings = Vec::new();
     let mut exit = Exit::Done;
-    for outcome in in_parallel(&jobs) {
+    let pool = match Pool::new(None) {
+        Ok(pool) => pool,
+        Err(error) => {
+            complain(&format_args!("error: {}", with_causes(&error)));
+            return Ok(Exit::Failed);
+        }
+    };
+    for outcome in pool.map(&jobs, |(ready, log)| execute(ready, log.clone(), false)) {
         match outcome {
             Ok((summary, ended)) => {
                 exit = exit.max(ended);
@@ -77,28 +85,6 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
 fn named_twice(kinds: &[String]) -> Option<&str> {
     let mut seen = BTreeSet::new();
     kinds.iter().map(|kind| kind.trim()).find(|kind| !seen.insert(*kind))
-}
-
-type Outcome = Result<(Summary, Exit), Exit>;
-
-/// The outcomes of the jobs in their order, whatever order they ran in.
-fn in_parallel(jobs: &[(&(Loaded, Experiment), Option<PathBuf>)]) -> Vec<Outcome> {
-    let workers = std::thread::available_parallelism().map_or(1, usize::from).min(jobs.len().max(1));
-    let next = std::sync::atomic::AtomicUsize::new(0);
-    let work = || {
-        let mut mine = Vec::new();
-        loop {
-            let number = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            let Some((ready, log)) = jobs.get(number) else { return mine };
-            mine.push((number, execute(ready, log.clone(), false)));
-        }
-    };
-    let mut all: Vec<(usize, Outcome)> = std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
-    });
-    all.sort_by_key(|(number, _)| *number);
-    all.into_iter().map(|(_, outcome)| outcome).collect()
 }
 
 /// (BSMC - BFSMC)/BSMC x 100 of the ITAE, the form behind Table 5.2; (5.8) as printed divides by BFSMC.

@@ -72,7 +72,7 @@ pub(super) fn prepare(spec: &str, sets: &[String]) -> Result<(Loaded, Experiment
 }
 
 /// An error and what caused it: an error does not repeat its source.
-fn with_causes(error: &dyn Error) -> String {
+pub(super) fn with_causes(error: &dyn Error) -> String {
     let causes = core::iter::successors(error.source(), |&cause| cause.source());
     causes.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
 }

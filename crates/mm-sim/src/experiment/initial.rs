@@ -1,6 +1,6 @@
 //! Where the robot stands when the run begins.
 
-use mm_model::{Configuration, Real, Robot, Velocity};
+use mm_model::{Configuration, InverseKinematics, Real, Robot, Velocity};
 use nalgebra::Vector3;
 
 use super::trajectory::stop;
@@ -30,7 +30,7 @@ pub(super) fn with_trajectory(
     let mut start = given(loaded, robot);
     let Some(path) = path else {
         let path = Path::Hold(robot.tip_position(&start.q));
-        return Ok((Trajectory { path, start_ramp, stop }, start));
+        return Ok((Trajectory { path, start_ramp, stop }, displaced(loaded, robot, start)?));
     };
     if loaded.file.initial.base_pose.is_none() {
         let at = path.at(0.0);
@@ -42,5 +42,52 @@ pub(super) fn with_trajectory(
         start.q.x = at.position.x - offset.x;
         start.q.y = at.position.y - offset.y;
     }
-    Ok((Trajectory { path, start_ramp, stop }, start))
+    Ok((Trajectory { path, start_ramp, stop }, displaced(loaded, robot, start)?))
+}
+
+/// The start with the tip moved by `initial.offset_m`: the base by x and y, the arm by z.
+///
+/// Joints 2 and 3 alone raise the tip, at the same distance from the axis of joint 1: of the postures of the inverse kinematics
+/// that do so within the joint limits, the nearest to the one before.
+fn displaced(
+    loaded: &Loaded,
+    robot: &Robot<f64, 3>,
+    mut start: PlantState,
+) -> Result<PlantState, ScenarioError> {
+    let [dx, dy, dz] = loaded.file.initial.offset_m;
+    if dz.abs() > 0.0 {
+        let tip = robot.tip_position(&start.q) + Vector3::new(0.0, 0.0, dz);
+        let before = start.q.joints;
+        let turned = |joints: &[f64; 3]| {
+            joints
+                .iter()
+                .zip(&before)
+                .map(|(after, before)| Real::wrap_to_pi(after - before).abs())
+                .sum::<f64>()
+        };
+        let solutions = robot.inverse_kinematics(&start.q, &tip);
+        let InverseKinematics::Solutions { branches, .. } = solutions else {
+            return Err(unreachable(loaded, dz));
+        };
+        let within = branches.into_iter().filter(|branch| branch.within_limits).map(|branch| branch.joints);
+        let nearest = within.min_by(|a, b| turned(a).total_cmp(&turned(b)));
+        start.q.joints = nearest.ok_or_else(|| unreachable(loaded, dz))?;
+    }
+    start.q.x += dx;
+    start.q.y += dy;
+    Ok(start)
+}
+
+fn unreachable(loaded: &Loaded, dz: f64) -> ScenarioError {
+    let message = format!("no posture within the joint limits puts the tip {dz} m above where it starts");
+    loaded.problem("initial.offset_m", message, "a start that the arm reaches")
+}
+
+/// Refuses a start off the reference for a motion that is its own reference.
+pub(super) fn refuse_offset(loaded: &Loaded) -> Result<(), ScenarioError> {
+    if loaded.file.initial.offset_m.iter().all(|offset| offset.abs() <= 0.0) {
+        return Ok(());
+    }
+    let message = "imposed velocities have no reference to start off";
+    Err(loaded.problem("initial.offset_m", message, "no offset, or a reference"))
 }

@@ -82,6 +82,22 @@ fn demand_complete(loaded: &Loaded) -> Result<(), ScenarioError> {
     ))
 }
 
+/// The same parameters with the factors that only the plant has.
+pub(super) fn scaled(mut p: RobotParams<f64, 3>, scale: &scenario::PlantScale) -> RobotParams<f64, 3> {
+    p.base_mass *= scale.base_mass;
+    p.base_yaw_inertia *= scale.base_yaw_inertia;
+    p.base_com_offset *= scale.base_com;
+    let factors = scale.link_mass.iter().zip(&scale.link_inertia).zip(&scale.link_com);
+    for (link, ((mass, inertia), com)) in p.links.iter_mut().zip(factors) {
+        link.mass *= mass;
+        link.axial_inertia *= inertia;
+        link.pitch_inertia *= inertia;
+        link.normal_inertia *= inertia;
+        link.com *= com;
+    }
+    p
+}
+
 /// The robot of checked parameters.
 pub(super) fn checked(loaded: &Loaded, params: RobotParams<f64, 3>) -> Result<Robot<f64, 3>, ScenarioError> {
     Robot::try_new(params).map_err(|error: ParamError| {

@@ -188,11 +188,13 @@ impl Checker<'_> {
                 ))
             }
             _ => {
+                let stem = format!("{name}_");
+                let here = names.clone().find(|property| property.starts_with(&stem));
                 let elsewhere =
                     self.known.iter().find(|(known, _)| known == name).map(|(_, path)| path.as_str());
                 Problem::new(path, "unknown key", place.clone())
                     .expected(one_of(&names.clone().collect::<Vec<_>>()))
-                    .nearest(elsewhere.or_else(|| nearest(name, names)))
+                    .nearest(here.or(elsewhere).or_else(|| nearest(name, names)))
             }
         };
         self.problems.push(problem);

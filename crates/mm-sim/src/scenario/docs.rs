@@ -6,6 +6,7 @@ use serde_json::Value as Json;
 
 use super::check::describe;
 use super::schema::{View, schema};
+use super::types::SAME_KEYS;
 
 /// What stands before the tables of the reference page.
 const PREFACE: &str = "\
@@ -73,6 +74,16 @@ fn fields<'a>(view: View<'a>, path: &str, rows: &mut Vec<Row>, inner: &mut Vec<(
         let path = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
         let in_expect = path.starts_with("expect.");
         let items = property.items().filter(|items| items.is_table());
+        if let Some(same) = property.text(SAME_KEYS) {
+            rows.push(Row {
+                key: key.to_owned(),
+                kind: format!("the keys of `[{same}]`"),
+                unit: String::new(),
+                default: String::new(),
+                meaning: format!("Gains of `{key}`."),
+            });
+            continue;
+        }
         match items {
             Some(items) if !in_expect => inner.push((format!("`[[{path}]]`"), path, items)),
             None if property.is_table() && !in_expect => inner.push((format!("`[{path}]`"), path, property)),

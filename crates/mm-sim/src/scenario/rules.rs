@@ -21,6 +21,7 @@ pub(super) fn check(root: &Node) -> Vec<Problem> {
     for (index, disturbance) in items(root, "disturbance").iter().enumerate() {
         one_disturbance(disturbance, index, &mut problems);
     }
+    range(root, "tune.bounds", &mut problems);
     if let Some(expect) = root.find("expect") {
         bounds(expect, "expect", &mut problems);
     }
@@ -118,6 +119,19 @@ fn joint_limits(root: &Node, links: &str, problems: &mut Vec<Problem>) {
                     .expected("[lo, hi] with lo below hi"),
             );
         }
+    }
+}
+
+/// Two numbers of which the first is to be the smaller.
+fn range(root: &Node, key: &str, problems: &mut Vec<Problem>) {
+    if let [lo, hi] = items(root, key)
+        && let (Some(lo), Some(hi)) = (lo.as_number(), hi.as_number())
+        && lo >= hi
+    {
+        problems.push(
+            Problem::new(key, format!("found [{lo}, {hi}]"), root.place_of(key))
+                .expected("[lo, hi] with lo below hi"),
+        );
     }
 }
 

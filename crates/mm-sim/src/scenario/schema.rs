@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use schemars::JsonSchema;
 use serde_json::{Map, Value};
 
-use super::types::{RobotFields, ScenarioFile, WaypointFile};
+use super::types::{GainsFor, RobotFields, ScenarioFile, WaypointFile};
 
 /// The schema of a scenario file.
 pub(super) static SCENARIO: LazyLock<Value> = LazyLock::new(generate::<ScenarioFile>);
@@ -15,6 +15,8 @@ pub(super) static ROBOT: LazyLock<Value> = LazyLock::new(generate::<RobotFields>
 
 /// The schema of a file of points.
 pub(super) static WAYPOINTS: LazyLock<Value> = LazyLock::new(generate::<WaypointFile>);
+/// The schema of a file of gains.
+pub(super) static GAINS: LazyLock<Value> = LazyLock::new(generate::<GainsFor>);
 
 /// Returns the JSON Schema (draft 2020-12) of a scenario file, for editors and for the checker.
 #[must_use]
@@ -198,5 +200,6 @@ mod tests {
         walk("", &SCENARIO, false);
         walk("", &ROBOT, false);
         walk("", &WAYPOINTS, false);
+        walk("", &GAINS, false);
     }
 }

@@ -9,18 +9,23 @@ mod disturbance;
 mod expect;
 mod ranges;
 mod robot;
+mod sweep;
 mod trajectory;
+mod tune;
 
 use ranges::{NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use controller::{Controller, ControllerKind, Gains, Misprints, Outer, PerAxis, PerChannel};
+pub(super) use controller::SAME_KEYS;
+pub use controller::{Controller, ControllerKind, Gains, GainsFor, Misprints, Outer, PerAxis, PerChannel};
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
-pub use robot::{Friction, Link, Plant, Preset, Robot, RobotFields};
+pub use robot::{Friction, Link, Plant, PlantScale, Preset, Robot, RobotFields};
+pub use sweep::Sweep;
 pub(super) use trajectory::WaypointFile;
 pub use trajectory::{Motion, Segment, Trajectory, WaypointPath};
+pub use tune::Tune;
 
 /// The period of the plant and of the controller when the file names none, in seconds.
 pub(super) const DEFAULT_PERIOD_S: f64 = 1e-3;
@@ -61,6 +66,17 @@ pub struct ScenarioFile {
     /// Bounds on the metrics of the run, checked at its end; the keys are those of `metrics` in the summary.
     #[serde(default)]
     pub expect: Expect,
+    /// What `mmsim sweep` varies: each sample draws every quantity anew, uniformly in its range, and leaves alone what has range
+    /// zero.
+    #[serde(default)]
+    pub sweep: Sweep,
+    /// Budget and cost of `mmsim tune`, a particle swarm (4.45), (4.46) over factors on groups of the law's default gains.
+    ///
+    /// The cost of a run is its ITAE sum in m s^2 plus `torque_variation_weight` times its torque variation in N m/s plus
+    /// `effort_weight` times its effort in N^2 m^2 s. A run that ends early costs 1e6 and, the earlier it ends, up to as much
+    /// again.
+    #[serde(default)]
+    pub tune: Tune,
 }
 
 /// Clock, integration and randomness.
@@ -119,6 +135,9 @@ pub struct Initial {
     /// Places the base by the reference instead of by `base_pose`. Default: `on-reference`, when
     /// `base_pose` is not given.
     pub tip: Option<TipStart>,
+    /// Moves the tip away from where it would start, in the world frame: the base by x and y, the arm, bent in its own plane, by z.
+    #[serde(default)]
+    pub offset_m: [f64; 3],
 }
 
 /// Where the tip of the arm is at the start.

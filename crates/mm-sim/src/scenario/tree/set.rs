@@ -79,7 +79,8 @@ fn insert(
     match &mut node.value {
         Value::Table(table) => {
             let next_is_index = segments.get(depth + 1).is_some_and(|next| next.parse::<usize>().is_ok());
-            let make_array = next_is_index && segments.len() > depth + 2;
+            let is_last = segments.len() == depth + 2;
+            let make_array = next_is_index && (!is_last || super::is_table(&new));
             let entry = table.entry((*segment).to_owned()).or_insert_with(|| Entry {
                 key: key.clone(),
                 node: Node {
@@ -102,7 +103,8 @@ fn insert(
                 .expected(format!("the number of an entry, from 0 to {}", items.len().saturating_sub(1)))
                 .boxed());
             };
-            let of_tables = segments.len() > depth + 1 && items.iter().all(super::is_table);
+            let of_tables =
+                (segments.len() > depth + 1 || super::is_table(&new)) && items.iter().all(super::is_table);
             if of_tables && index < MAX_NEW_ENTRIES {
                 while items.len() <= index {
                     items.push(Node { value: Value::Table(Table::new()), place: key.clone() });

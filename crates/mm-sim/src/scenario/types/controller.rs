@@ -1,6 +1,10 @@
 //! `[controller]`.
 
-use schemars::JsonSchema;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use mm_control::LawKind;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use super::{NonNegative, Positive};
@@ -8,7 +12,7 @@ use super::{NonNegative, Positive};
 /// The control law and its gains.
 ///
 /// Channels are in the order of the quasi-velocities: forward speed, yaw rate, joints 1 to 3.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Controller {
     /// The control law.
@@ -20,7 +24,42 @@ pub struct Controller {
     /// The gains of the inner loop; those a law does not use have no effect on it.
     #[serde(default)]
     pub gains: Gains,
+    /// Gains of single laws. The law that runs takes each gain from the first that gives it of `--set`, `gains_for`, `gains_file`
+    /// and `gains`: what is meant for one law comes before what is meant for all, the scenario before a file that it names.
+    #[serde(default)]
+    pub gains_for: GainsFor,
+    /// A TOML file with a table for each law, as `mmsim tune` writes it, over `gains`; sought in the folder of the scenario file,
+    /// a name given by `--set` from the working directory.
+    pub gains_file: Option<String>,
 }
+
+/// Gains of single laws: a table for each law's name.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(transparent)]
+pub struct GainsFor(pub BTreeMap<String, Gains>);
+
+impl JsonSchema for GainsFor {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "GainsFor".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let gains = |law: LawKind| {
+            let mut gains = generator.subschema_for::<Gains>();
+            gains.insert(SAME_KEYS.to_owned(), "controller.gains".into());
+            (law.name().to_owned(), gains.to_value())
+        };
+        let properties: serde_json::Map<_, _> = LawKind::ALL.into_iter().map(gains).collect();
+        json_schema!({ "type": "object", "properties": properties, "additionalProperties": false })
+    }
+}
+
+/// Schema keyword of a table whose keys are those of another.
+pub(crate) const SAME_KEYS: &str = "x-same-keys-as";
 
 /// The control law.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]

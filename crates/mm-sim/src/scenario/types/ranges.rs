@@ -37,3 +37,20 @@ impl JsonSchema for NonNegative {
         json_schema!({ "type": "number", "minimum": 0 })
     }
 }
+
+/// A number of at least zero and below one.
+pub(super) struct Share;
+
+impl JsonSchema for Share {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Share".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "number", "minimum": 0, "exclusiveMaximum": 1 })
+    }
+}

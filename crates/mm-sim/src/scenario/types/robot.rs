@@ -98,6 +98,9 @@ pub struct Plant {
     #[serde(default = "default_mass_scale")]
     #[schemars(with = "Positive")]
     pub mass_scale: f64,
+    /// Factors on single parameters of the plant, on top of `mass_scale`.
+    #[serde(default)]
+    pub scale: PlantScale,
     /// Friction in the wheels and joints of the plant.
     #[serde(default)]
     pub friction: Friction,
@@ -105,12 +108,49 @@ pub struct Plant {
 
 impl Default for Plant {
     fn default() -> Self {
-        Self { mass_scale: default_mass_scale(), friction: Friction::default() }
+        Self { mass_scale: default_mass_scale(), scale: PlantScale::default(), friction: Friction::default() }
     }
 }
 
 const fn default_mass_scale() -> f64 {
     1.0
+}
+
+/// Factors on single parameters of the plant, on top of `mass_scale`; the controller never knows them.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct PlantScale {
+    /// On the mass of the base.
+    #[schemars(with = "Positive")]
+    pub base_mass: f64,
+    /// On the inertia of the base about the vertical.
+    #[schemars(with = "Positive")]
+    pub base_yaw_inertia: f64,
+    /// On the distance of the base's centre of mass ahead of the wheel axle.
+    #[schemars(with = "NonNegative")]
+    pub base_com: f64,
+    /// On the mass of each link; inertias stay as they are.
+    #[schemars(with = "[Positive; 3]")]
+    pub link_mass: [f64; 3],
+    /// On the three principal inertias of each link.
+    #[schemars(with = "[Positive; 3]")]
+    pub link_inertia: [f64; 3],
+    /// On the distance of each link's centre of mass from its joint.
+    #[schemars(with = "[NonNegative; 3]")]
+    pub link_com: [f64; 3],
+}
+
+impl Default for PlantScale {
+    fn default() -> Self {
+        Self {
+            base_mass: 1.0,
+            base_yaw_inertia: 1.0,
+            base_com: 1.0,
+            link_mass: [1.0; 3],
+            link_inertia: [1.0; 3],
+            link_com: [1.0; 3],
+        }
+    }
 }
 
 /// Friction in the wheels and joints of the plant: a viscous part and a Coulomb part smoothed around zero.
