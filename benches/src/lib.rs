@@ -8,7 +8,7 @@
 pub struct Readme;
 
 use anyhow::Result;
-use mm_control::{ControlStack, Gains, Input, LawKind, OuterParams, StackParams};
+use mm_control::{ControlStack, Estimator, Gains, Input, LawKind, OuterParams, StackParams};
 use mm_model::{Configuration, Real, Robot, RobotParams, Torque, Velocity};
 use mm_sim::disturbance::Disturbances;
 use mm_sim::plant::{Plant, PlantState};
@@ -96,7 +96,7 @@ pub fn numbers<T: Real>(lo: f64, hi: f64) -> Vec<T> {
 pub fn stack(kind: LawKind) -> Result<ControlStack<f64, 3>> {
     let robot = robot()?;
     let gains = Gains::for_robot(&robot, kind, PERIOD);
-    let params = StackParams { period: PERIOD, outer: OuterParams::default(), gains };
+    let params = StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None };
     Ok(ControlStack::try_new(robot, kind, params)?)
 }
 

@@ -1,6 +1,6 @@
 //! The control stack of a scenario: defaults that follow the robot, overridden by what the file gives.
 
-use mm_control::{ControlStack, Gains, LawKind, OuterParams, SetupError, StackParams};
+use mm_control::{ControlStack, Estimator, Gains, LawKind, OuterParams, SetupError, StackParams};
 use mm_model::{Force, Robot, Velocity};
 use nalgebra::Vector3;
 
@@ -30,7 +30,7 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
     gains.learning_limit = force(given.learning_limit, gains.learning_limit);
     gains.reaching_margin = force(given.reaching_margin, gains.reaching_margin);
     let outer = outer(&robot, &file.controller.outer);
-    ControlStack::try_new(robot, kind, StackParams { period, outer, gains }).map_err(|error| {
+    ControlStack::try_new(robot, kind, StackParams { period, outer, gains, estimator: Estimator::None }).map_err(|error| {
         let key = match error {
             SetupError::Param(error) => {
                 let name = error.parameter();
