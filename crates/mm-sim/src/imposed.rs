@@ -131,7 +131,8 @@ impl Imposed {
             let reference = self.reference(t);
             let tip = robot.tip_position(&state.q);
             let sines = self.plant.sines(&state.q);
-            let torque = robot.torque_of(&robot.inverse_dynamics(&state.q, &state.nu, &Velocity::zero()));
+            let loaded = self.plant.robot_at(t);
+            let torque = robot.torque_of(&loaded.inverse_dynamics(&state.q, &state.nu, &Velocity::zero()));
             let wheels = robot.wheel_rates(state.nu.forward, state.nu.yaw_rate);
             let manipulability_squared = robot.manipulability_squared(&sines.posture);
             let within_limits = robot.each_within_limits(&state.q.joints);
@@ -160,6 +161,7 @@ impl Imposed {
                     external: mm_model::Force::zero(),
                     required_gain: mm_model::Force::zero(),
                     manipulability_squared,
+                    saturated: false,
                     output: None,
                 };
                 if !recorder.record(&sample)? {

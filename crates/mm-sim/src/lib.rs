@@ -10,6 +10,7 @@ pub mod cli;
 pub mod digest;
 pub mod disturbance;
 pub mod experiment;
+pub mod hardware;
 pub mod imposed;
 pub mod log;
 pub mod metrics;

@@ -28,9 +28,10 @@ pub use diagnostic::{Problem, ScenarioError};
 pub use docs::markdown;
 pub use schema::schema;
 pub use types::{
-    AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget, Expect,
-    Friction, Gains, Initial, Integrator, Link, Motion, Outer, Peaks, PerAxis, PerChannel, Plant, Preset,
-    Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation, TipStart, Totals, Trajectory,
+    Actuators, AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget,
+    Estimator, EstimatorKind, Expect, Friction, Gains, Initial, Integrator, Link, Motion, Motor, Motors,
+    Outer, Peaks, PerAxis, PerChannel, Plant, PoseSource, Preset, Robot, RobotFields, ScenarioFile, Segment,
+    Sensors, Shape, Simulation, TipStart, Totals, Trajectory,
 };
 
 /// The name that an argument of the command line has in messages.

@@ -1,6 +1,6 @@
 //! The control stack of a scenario: defaults that follow the robot, overridden by what the file gives.
 
-use mm_control::{ControlStack, Estimator, Gains, LawKind, OuterParams, SetupError, StackParams};
+use mm_control::{ControlStack, Gains, LawKind, OuterParams, SetupError, StackParams};
 use mm_model::{Force, Robot, Velocity};
 use nalgebra::Vector3;
 
@@ -30,14 +30,22 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
     gains.learning_limit = force(given.learning_limit, gains.learning_limit);
     gains.reaching_margin = force(given.reaching_margin, gains.reaching_margin);
     let outer = outer(&robot, &file.controller.outer);
-    ControlStack::try_new(robot, kind, StackParams { period, outer, gains, estimator: Estimator::None }).map_err(|error| {
+    let estimator = super::hardware::estimator(loaded)?;
+    let delay = file.controller.estimator.delay_s;
+    let stack = ControlStack::try_new(robot, kind, StackParams { period, outer, gains, estimator });
+    stack.and_then(|stack| stack.with_delay(delay)).map_err(|error| {
         let key = match error {
             SetupError::Param(error) => {
                 let name = error.parameter();
                 let outer = name.ends_with("_1_s") && name != "observer_bandwidth_1_s"
                     || ["weights", "damping_max", "manipulability_threshold"].contains(&name)
                     || name.contains("_rad");
-                format!("controller.{}.{name}", if outer { "outer" } else { "gains" })
+                let part = match name {
+                    "cutoff_hz" | "delay_s" => "estimator",
+                    _ if outer => "outer",
+                    _ => "gains",
+                };
+                format!("controller.{part}.{name}")
             }
             _ => "controller.gains".to_owned(),
         };

@@ -7,6 +7,7 @@
 mod controller;
 mod disturbance;
 mod expect;
+mod hardware;
 mod ranges;
 mod robot;
 mod trajectory;
@@ -18,6 +19,7 @@ use serde::Deserialize;
 pub use controller::{Controller, ControllerKind, Gains, Outer, PerAxis, PerChannel};
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
+pub use hardware::{Actuators, Estimator, EstimatorKind, Motor, Motors, PoseSource, Sensors};
 pub use robot::{Friction, Link, Plant, Preset, Robot, RobotFields};
 pub use trajectory::{Motion, Segment, Trajectory};
 

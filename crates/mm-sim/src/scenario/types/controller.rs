@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::hardware::Estimator;
 use super::{NonNegative, Positive};
 
 /// The control law and its gains.
@@ -20,6 +21,9 @@ pub struct Controller {
     /// The gains of the inner loop; those a law does not use have no effect on it.
     #[serde(default)]
     pub gains: Gains,
+    /// How configuration and velocity are found from what the sensors read.
+    #[serde(default)]
+    pub estimator: Estimator,
 }
 
 /// The control law.
