@@ -38,6 +38,8 @@ fn the_names_are_those_of_the_interface() {
         "spiral-disturbed",
         "square",
         "square-compare",
+        "square-realistic",
+        "payload-drop",
         "step-disturbed",
         "verify-circle",
         "verify-joint2",
