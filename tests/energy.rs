@@ -45,6 +45,7 @@ fn kinetic_energy_stays_without_gravity() {
             q: Configuration { x: 0.0, y: 0.0, heading, joints: random.three(-2.5, 2.5) },
             nu: Velocity { forward, yaw_rate, joints: random.three(-1.0, 1.0) },
             travel: 0.0,
+            yaw_slip: 0.0,
         };
         let (largest, _) = drift(robot, start, 1e-3, 10_000);
         worst = worst.max(largest);
@@ -60,7 +61,7 @@ fn kinetic_energy_stays_without_gravity() {
 fn energy_stays_in_free_fall() {
     let robot = Robot::try_new(RobotParams::thesis()).expect("the preset is a robot");
     let q = Configuration { x: 0.0, y: 0.0, heading: 0.0, joints: RobotParams::thesis().rest_posture };
-    let start = PlantState { q, nu: Velocity::zero(), travel: 0.0 };
+    let start = PlantState { q, nu: Velocity::zero(), travel: 0.0, yaw_slip: 0.0 };
     let steps = [(2e-3, 5000), (1e-3, 10_000), (5e-4, 20_000)];
     let drifts = steps.map(|(h, steps)| {
         let (largest, last) = drift(robot, start, h, steps);
@@ -143,6 +144,7 @@ fn friction_and_a_varying_disturbance_account_for_the_rest() {
         q: Configuration { x: 0.0, y: 0.0, heading: 0.3, joints: [0.1, 1.0, -1.5] },
         nu: Velocity { forward: 0.5, yaw_rate: 0.4, joints: [0.3, -0.2, 0.6] },
         travel: 0.0,
+        yaw_slip: 0.0,
     };
     let held = Torque { right: 2.0, left: 1.0, joints: [0.5, 70.0, 20.0] };
     // Largest misfit over 2 s, and what friction took.

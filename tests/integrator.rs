@@ -27,6 +27,7 @@ fn moving() -> PlantState {
         q: Configuration { x: 0.3, y: -0.2, heading: 0.7, joints: [0.2, 0.9, -1.6] },
         nu: Velocity { forward: 0.4, yaw_rate: -0.6, joints: [0.5, -0.3, 0.8] },
         travel: 0.0,
+        yaw_slip: 0.0,
     }
 }
 
@@ -140,6 +141,7 @@ fn a_step_is_that_of_a_naive_runge_kutta_method() {
             q: Configuration { x, y, heading, joints: random.three(-3.0, 3.0) },
             nu: Velocity { forward, yaw_rate, joints: random.three(-1.0, 1.0) },
             travel: random.between(-2.0, 2.0),
+            yaw_slip: 0.0,
         };
         let [right, left, _] = random.three(-5.0, 5.0);
         let torque = Torque { right, left, joints: random.three(-40.0, 40.0) };

@@ -41,6 +41,8 @@ fn the_names_are_those_of_the_interface() {
         "square",
         "square-compare",
         "square-smooth",
+        "square-realistic",
+        "payload-drop",
         "step-disturbed",
         "verify-circle",
         "verify-joint2",

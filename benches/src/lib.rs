@@ -8,7 +8,7 @@
 pub struct Readme;
 
 use anyhow::Result;
-use mm_control::{ControlStack, Gains, Input, LawKind, OuterParams, StackParams};
+use mm_control::{ControlStack, Estimator, Gains, Input, LawKind, OuterParams, StackParams};
 use mm_model::{Configuration, Real, Robot, RobotParams, Torque, Velocity};
 use mm_sim::disturbance::Disturbances;
 use mm_sim::plant::{Plant, PlantState};
@@ -96,7 +96,8 @@ pub fn numbers<T: Real>(lo: f64, hi: f64) -> Vec<T> {
 pub fn stack(kind: LawKind) -> Result<ControlStack<f64, 3>> {
     let robot = robot()?;
     let gains = Gains::for_robot(&robot, kind, PERIOD);
-    let params = StackParams { period: PERIOD, outer: OuterParams::default(), gains };
+    let params =
+        StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None };
     Ok(ControlStack::try_new(robot, kind, params)?)
 }
 
@@ -113,8 +114,9 @@ pub fn square(kind: LawKind, ticks: u64) -> Result<Simulation> {
         stack: stack(kind)?,
         plant: Plant::new(robot, Disturbances::default(), PERIOD),
         trajectory: Trajectory { path: Path::Square, start_ramp: 0.0, stop: None },
-        initial: PlantState { q, nu: Velocity::zero(), travel: 0.0 },
+        initial: PlantState { q, nu: Velocity::zero(), travel: 0.0, yaw_slip: 0.0 },
         clock: Clock { period: PERIOD, substeps: 1, ticks, log_every: NO_SAMPLES },
+        hardware: None,
     })
 }
 

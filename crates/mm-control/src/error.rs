@@ -47,6 +47,8 @@ pub enum ControlError {
     NonFinite(&'static str),
     /// The torque computed from finite inputs, or the state after it, is infinite or NaN: the inputs are absurdly large.
     Overflow,
+    /// A measurement was given to a stack that has no estimator.
+    NoEstimator,
 }
 
 impl fmt::Display for ControlError {
@@ -54,6 +56,9 @@ impl fmt::Display for ControlError {
         match self {
             Self::NonFinite(input) => write!(f, "{input} is infinite or not a number"),
             Self::Overflow => f.write_str("the torque overflowed: an input is far beyond any robot"),
+            Self::NoEstimator => {
+                f.write_str("the stack has no estimator: it cannot take a measurement alone")
+            }
         }
     }
 }

@@ -18,7 +18,7 @@
 //! one, its documentation says so.
 //!
 //! # Not modelled
-//! Actuator dynamics, sensor filtering and plausibility checks beyond finiteness: the estimator and supervisor stages pass their input on.
+//! Actuator dynamics, and plausibility checks beyond finiteness: the supervisor stage passes its input on.
 //!
 //! # Features
 //! `std` adds the standard library to the dependencies, nothing else; the numbers are the same bits with and without it.
@@ -33,6 +33,7 @@
 )]
 
 mod error;
+mod estimator;
 pub mod fuzzy;
 pub mod laws;
 mod observer;
@@ -42,6 +43,7 @@ mod stack;
 mod symmetric3;
 
 pub use error::{ControlError, SetupError};
+pub use estimator::{Estimator, Measurement, WheelAngles};
 pub use laws::{Bfsmc, Gains, Law, LawKind};
 pub use outer::{OuterLoop, OuterOutput, OuterParams};
 pub use reaching::required_gain;

@@ -21,7 +21,7 @@ mod common {
 use common::plant::Plant;
 use common::random::Random;
 use mm_control::laws::{ChannelMatrix, EffectiveInertia, StateFeedback};
-use mm_control::{ControlStack, Gains, Input, Law, LawKind, OuterParams, Reference, StackParams};
+use mm_control::{ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference, StackParams};
 use mm_model::{Configuration, Force, Mechanism, ParamError, Robot, RobotParams, Torque, Velocity};
 use nalgebra::{SMatrix, SVector, Vector3};
 
@@ -45,7 +45,8 @@ fn thesis() -> Robot<f64, 3> {
 
 fn stack(robot: Robot<f64, 3>, kind: LawKind, gains: Gains<f64, 3>) -> ControlStack<f64, 3> {
     let outer = OuterParams::default();
-    ControlStack::try_new(robot, kind, StackParams { period: PERIOD, outer, gains }).unwrap()
+    let estimator = Estimator::None;
+    ControlStack::try_new(robot, kind, StackParams { period: PERIOD, outer, gains, estimator }).unwrap()
 }
 
 fn of(channels: impl Iterator<Item = f64>) -> Vector {

@@ -20,7 +20,8 @@ use common::random::Random;
 use mm_control::fuzzy::{FuzzyError, Mamdani, SMOOTH, THESIS};
 use mm_control::laws::Misprints;
 use mm_control::{
-    Bfsmc, ControlStack, Gains, Input, Law, LawKind, OuterParams, Reference, SetupError, StackParams,
+    Bfsmc, ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference, SetupError,
+    StackParams,
 };
 use mm_model::{Configuration, Force, Robot, RobotParams, Torque, Velocity};
 use nalgebra::Vector3;
@@ -200,7 +201,8 @@ fn bfsmc_is_odd_falling_and_continuous() {
 
 fn output(rules: Option<&Mamdani<'_, f64>>, gains: Gains<f64, 3>) -> [f64; 5] {
     let robot = robot();
-    let params = StackParams { period: PERIOD, outer: OuterParams::default(), gains };
+    let params =
+        StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None };
     let stack = match rules {
         None => ControlStack::try_new(robot, LawKind::Bfsmc, params).unwrap(),
         Some(rules) => ControlStack::with_rules(robot, rules, params).unwrap(),

@@ -18,7 +18,7 @@ mod common {
 
 use common::plant::Plant;
 use mm_control::{
-    ControlStack, ControlState, Gains, Input, LawKind, OuterParams, Output, Reference, StackParams,
+    ControlStack, ControlState, Estimator, Gains, Input, LawKind, OuterParams, Output, Reference, StackParams,
 };
 use mm_model::{Configuration, Force, Robot, RobotParams, Velocity};
 use nalgebra::Vector3;
@@ -36,7 +36,8 @@ fn thesis() -> Robot<f64, 3> {
 fn stack(kind: LawKind, change: impl Fn(&mut Gains<f64, 3>)) -> Stack {
     let mut gains = Gains::for_robot(&thesis(), kind, PERIOD);
     change(&mut gains);
-    let params = StackParams { period: PERIOD, outer: OuterParams::default(), gains };
+    let params =
+        StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None };
     ControlStack::try_new(thesis(), kind, params).unwrap()
 }
 

@@ -19,7 +19,8 @@ mod common {
 
 use common::plant::Plant;
 use mm_control::{
-    ControlStack, Gains, Input, LawKind, OuterParams, Output, Reference, StackParams, required_gain,
+    ControlStack, Estimator, Gains, Input, LawKind, OuterParams, Output, Reference, StackParams,
+    required_gain,
 };
 use mm_model::{Configuration, Force, Mechanism, Real, Robot, RobotParams, Velocity};
 use nalgebra::Vector3;
@@ -69,7 +70,8 @@ struct Tick {
 }
 
 fn run(kind: LawKind, gains: Gains<f64, 3>, nu: Velocity<f64, 3>, seconds: f64) -> Vec<Tick> {
-    let params = StackParams { period: PERIOD, outer: OuterParams::default(), gains };
+    let params =
+        StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None };
     let stack = ControlStack::try_new(unlimited(nominal()), kind, params).unwrap();
     let q = Configuration { joints: nominal().params().rest_posture, ..Configuration::zero() };
     let start = nominal().tip_position(&q) + Vector3::new(0.02, -0.02, 0.01);

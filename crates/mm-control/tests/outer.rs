@@ -20,7 +20,7 @@ mod common {
 
 use common::motion::{Path, arc, extrapolated, random_params, vector};
 use common::random::Random;
-use mm_control::{ControlStack, Gains, LawKind, OuterOutput, OuterParams, Reference, StackParams};
+use mm_control::{ControlStack, Estimator, Gains, LawKind, OuterOutput, OuterParams, Reference, StackParams};
 use mm_model::{Configuration, Mechanism, Real, Robot, RobotParams, Velocity};
 use nalgebra::{SMatrix, SVector, Vector3};
 
@@ -30,8 +30,12 @@ type Params = OuterParams<f64, 3>;
 #[expect(clippy::expect_used, reason = "a test that cannot build its stack has failed")]
 fn stack(robot: &Arm, outer: Params) -> ControlStack<f64, 3> {
     let gains = Gains::for_robot(robot, LawKind::Bsmc, 1e-3);
-    ControlStack::try_new(*robot, LawKind::Bsmc, StackParams { period: 1e-3, outer, gains })
-        .expect("the random gains are allowed")
+    ControlStack::try_new(
+        *robot,
+        LawKind::Bsmc,
+        StackParams { period: 1e-3, outer, gains, estimator: Estimator::None },
+    )
+    .expect("the random gains are allowed")
 }
 
 fn evaluate(

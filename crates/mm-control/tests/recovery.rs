@@ -75,7 +75,12 @@ struct Extremes {
 fn run(kind: LawKind, start: Configuration<f64, 3>, reference: impl Fn(f64) -> Reference<f64>) -> Extremes {
     let robot = thesis();
     let gains = Gains::for_robot(&robot, kind, PERIOD);
-    let params = StackParams { period: PERIOD, outer: OuterParams::for_robot(&robot), gains };
+    let params = StackParams {
+        period: PERIOD,
+        outer: OuterParams::for_robot(&robot),
+        gains,
+        estimator: mm_control::Estimator::None,
+    };
     let stack = ControlStack::try_new(robot, kind, params).unwrap();
     let mut state = stack.initial_state();
     let mut plant = Plant { robot, q: start, nu: Velocity::zero(), time: 0.0 };

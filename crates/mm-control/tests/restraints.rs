@@ -32,8 +32,12 @@ type Params = OuterParams<f64, 3>;
 #[expect(clippy::expect_used, reason = "a test that cannot build its stack has failed")]
 fn stack(robot: &Robot<f64, 3>, outer: Params, period: f64) -> Stack {
     let gains = Gains::for_robot(robot, LawKind::Bsmc, period);
-    ControlStack::try_new(*robot, LawKind::Bsmc, StackParams { period, outer, gains })
-        .expect("the random gains are allowed")
+    ControlStack::try_new(
+        *robot,
+        LawKind::Bsmc,
+        StackParams { period, outer, gains, estimator: mm_control::Estimator::None },
+    )
+    .expect("the random gains are allowed")
 }
 
 fn evaluate(
@@ -419,7 +423,7 @@ fn single_precision_holds_and_releases_at_the_same_updates() {
             base_release: Real::from_f64(release),
             ..OuterParams::default()
         };
-        let params = StackParams { period: 1e-3, outer, gains };
+        let params = StackParams { period: 1e-3, outer, gains, estimator: mm_control::Estimator::None };
         let single = ControlStack::try_new(robot, LawKind::Bsmc, params).map_err(|error| error.to_string());
         let single = single.unwrap_or_else(|error| panic!("{error}"));
         let q = Configuration { joints: robot.params().rest_posture, ..Configuration::zero() };

@@ -17,8 +17,8 @@ mod common {
 use common::plant::Plant;
 use mm_control::fuzzy::{FuzzyError, MembershipFunction, SMOOTH};
 use mm_control::{
-    Bfsmc, ControlError, ControlStack, Gains, Input, Law, LawKind, OuterParams, Reference, SetupError,
-    StackParams,
+    Bfsmc, ControlError, ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference,
+    SetupError, StackParams,
 };
 use mm_model::{
     Configuration, Force, Link, Mechanism, ParamError, Real, Robot, RobotParams, Torque, Velocity,
@@ -29,7 +29,7 @@ const PERIOD: f64 = 1e-3;
 
 fn params() -> StackParams<f64, 3> {
     let gains = Gains::for_robot(&thesis(), LawKind::Bfsmc, PERIOD);
-    StackParams { period: PERIOD, outer: OuterParams::default(), gains }
+    StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None }
 }
 
 fn thesis<T: Real>() -> Robot<T, 3>
@@ -151,7 +151,7 @@ where
 {
     let period = T::from_f64(PERIOD);
     let gains = Gains::for_robot(&thesis::<T>(), kind, period);
-    let params = StackParams { period, outer: OuterParams::default(), gains };
+    let params = StackParams { period, outer: OuterParams::default(), gains, estimator: Estimator::None };
     let stack = ControlStack::try_new(thesis::<T>(), kind, params).unwrap();
     let mut state = stack.initial_state();
     let heavier = RobotParams::<f64, 3>::thesis().with_mass_scaled(1.1);
@@ -233,7 +233,8 @@ fn the_base_alone_is_a_robot() {
     let robot = Robot::try_new(base).unwrap();
     for kind in LawKind::ALL {
         let gains = Gains::for_robot(&robot, kind, PERIOD);
-        let params = StackParams { period: PERIOD, outer: OuterParams::default(), gains };
+        let params =
+            StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None };
         let stack = ControlStack::try_new(robot, kind, params).unwrap();
         let (mut state, mut q, mut nu) =
             (stack.initial_state(), Configuration::<f64, 0>::zero(), Velocity::zero());

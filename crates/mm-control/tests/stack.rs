@@ -22,7 +22,8 @@ use common::plant::Plant;
 use common::random::Random;
 use mm_control::fuzzy::{FuzzySystem, SMOOTH, Surface, THESIS};
 use mm_control::{
-    ControlError, ControlStack, ControlState, Gains, Input, LawKind, OuterParams, Reference, StackParams,
+    ControlError, ControlStack, ControlState, Estimator, Gains, Input, LawKind, OuterParams, Reference,
+    StackParams,
 };
 use mm_model::{Configuration, Force, Mechanism, Robot, RobotParams, Torque, Velocity};
 use nalgebra::{SMatrix, SVector, Vector3};
@@ -38,8 +39,12 @@ fn thesis() -> Robot<f64, 3> {
 }
 
 fn stack(robot: Robot<f64, 3>, kind: LawKind, gains: Gains<f64, 3>) -> Stack {
-    ControlStack::try_new(robot, kind, StackParams { period: PERIOD, outer: OuterParams::default(), gains })
-        .unwrap()
+    ControlStack::try_new(
+        robot,
+        kind,
+        StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None },
+    )
+    .unwrap()
 }
 
 fn default_stack(kind: LawKind) -> Stack {

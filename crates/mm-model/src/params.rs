@@ -166,6 +166,23 @@ impl<T: Real, const N: usize> RobotParams<T, N> {
         self
     }
 
+    /// The same robot with a point mass at the tip, as a part of its last link.
+    ///
+    /// Equation: m = m3 + mp, com = (m3 com3 + mp a3)/m, and m3 mp/m (a3 - com3)^2 more inertia across the link.
+    #[must_use]
+    pub fn with_payload(mut self, payload: T) -> Self {
+        if let Some(link) = self.links.last_mut() {
+            let mass = link.mass + payload;
+            let arm = link.length - link.com;
+            let across = link.mass * payload / mass * arm * arm;
+            link.com = (link.mass * link.com + payload * link.length) / mass;
+            link.pitch_inertia += across;
+            link.normal_inertia += across;
+            link.mass = mass;
+        }
+        self
+    }
+
     /// Checks every field.
     ///
     /// # Errors

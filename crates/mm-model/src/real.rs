@@ -56,6 +56,9 @@ pub trait Real:
     /// Angle in [0, pi] whose cosine this is; NaN outside [-1, 1].
     #[must_use]
     fn acos(self) -> Self;
+    /// Power of Euler's number.
+    #[must_use]
+    fn exp(self) -> Self;
     /// Square root, correctly rounded; NaN for a negative number.
     #[must_use]
     fn sqrt(self) -> Self;
@@ -150,6 +153,10 @@ impl Real for f64 {
         libm::acos(self)
     }
     #[inline]
+    fn exp(self) -> Self {
+        libm::exp(self)
+    }
+    #[inline]
     fn sqrt(self) -> Self {
         libm::sqrt(self)
     }
@@ -206,6 +213,10 @@ impl Real for f32 {
     #[inline]
     fn acos(self) -> Self {
         libm::acosf(self)
+    }
+    #[inline]
+    fn exp(self) -> Self {
+        libm::expf(self)
     }
     #[inline]
     fn sqrt(self) -> Self {

@@ -193,3 +193,28 @@ fn nothing_depends_on_where_the_robot_stands() {
     }
     turned.within(TOLERANCE);
 }
+
+/// Law: a payload is a point mass m at the tip: M grows by m J'J, the bias by J'(m dJ/dt nu + m g up). Reference: the tip's Jacobian,
+/// which knows no masses.
+#[test]
+fn a_payload_is_a_point_mass_at_the_tip() {
+    let mut draw = Random::seeded(29);
+    let [mut mass_gap, mut bias_gap] = ["M with a payload", "bias with a payload"].map(Worst::of);
+    for case in 0..1000 {
+        let params = draw.params(case);
+        let load = draw.between(0.1, 10.0);
+        let (bare, loaded) = (random::robot(params), random::robot(params.with_payload(load)));
+        let (q, nu) = (draw.configuration(), draw.velocity());
+        let jacobian = bare.jacobian(&q).to_matrix();
+        let [less, more] = [bare, loaded].map(|robot| mass::dense(&robot.mass_matrix_at(&q)));
+        mass_gap.see(case, &more, &(less + jacobian.transpose() * jacobian * load), more.norm());
+
+        let up = nalgebra::Vector3::new(0.0, 0.0, params.gravity);
+        let push = jacobian.transpose() * (bare.jacobian_bias(&q, &nu) + up) * load;
+        let still = Velocity::zero();
+        let [less, more] = [bare, loaded].map(|robot| of_force(&robot.inverse_dynamics(&q, &nu, &still)));
+        bias_gap.see(case, &more, &(less + push), more.norm() + less.norm() + push.norm());
+    }
+    mass_gap.within(TOLERANCE);
+    bias_gap.within(TOLERANCE);
+}

@@ -13,6 +13,19 @@ pub enum Target {
     Torque(Torque<f64, 3>),
     /// A force at the tip along a unit vector of the world frame; the amplitude is in N.
     Tip(Vector3<f64>),
+    /// A slip of the base on the ground, one factor a direction; the amplitude is in m/s or rad/s.
+    Slip(Slip),
+}
+
+/// What the contact with the ground adds to the rate of the pose: the wheels do not see it, a measured pose does.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Slip {
+    /// Along the heading, m/s.
+    pub forward: f64,
+    /// To the left, m/s.
+    pub sideways: f64,
+    /// Counter-clockwise, rad/s.
+    pub yaw_rate: f64,
 }
 
 /// How a disturbance runs in time.
@@ -43,7 +56,7 @@ pub struct Disturbance {
     pub target: Target,
     /// How it runs.
     pub shape: Shape,
-    /// Its size, N m or N.
+    /// Its size, N m, N, m/s or rad/s.
     pub amplitude: f64,
     /// From this time on, s.
     pub from: f64,
@@ -74,31 +87,60 @@ impl Disturbance {
 
 /// All disturbances of a scenario.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Disturbances(Vec<Disturbance>);
+pub struct Disturbances {
+    all: Vec<Disturbance>,
+    slips: bool,
+}
 
 impl Disturbances {
     /// A set of disturbances that act together.
     #[must_use]
-    pub const fn new(all: Vec<Disturbance>) -> Self {
-        Self(all)
+    pub fn new(all: Vec<Disturbance>) -> Self {
+        let slips = all.iter().any(|disturbance| matches!(disturbance.target, Target::Slip(_)));
+        Self { all, slips }
+    }
+
+    /// Whether the base slips at any time.
+    #[must_use]
+    #[inline]
+    pub const fn slips(&self) -> bool {
+        self.slips
+    }
+
+    /// Sum of the slips at time `t` of a step that begins at `begin`.
+    ///
+    /// It is kinematic: it changes the rate of the pose and, through it, nothing of the dynamics, which see the wheels' speeds.
+    #[must_use]
+    pub fn slip(&self, (begin, t): (f64, f64)) -> Slip {
+        let mut sum = Slip::default();
+        for disturbance in &self.all {
+            if let Target::Slip(factors) = disturbance.target {
+                let size = disturbance.size(begin, t);
+                sum.forward += size * factors.forward;
+                sum.sideways += size * factors.sideways;
+                sum.yaw_rate += size * factors.yaw_rate;
+            }
+        }
+        sum
     }
 
     /// Whether nothing disturbs.
     #[must_use]
     #[inline]
     pub const fn is_none(&self) -> bool {
-        self.0.is_empty()
+        self.all.is_empty()
     }
 
     /// Sum of the torques on the actuators' axes and of the forces at the tip at time `t` of a step that begins at `begin`.
     #[must_use]
     pub fn sizes(&self, begin: f64, t: f64) -> (Torque<f64, 3>, Vector3<f64>) {
         let mut sum = (Torque::zero(), Vector3::zeros());
-        for disturbance in &self.0 {
+        for disturbance in &self.all {
             let size = disturbance.size(begin, t);
             match disturbance.target {
                 Target::Torque(factors) => sum.0 = sum.0.plus(factors.scaled(size)),
                 Target::Tip(direction) => sum.1 += direction * size,
+                Target::Slip(_) => {}
             }
         }
         sum
@@ -112,7 +154,7 @@ impl Disturbances {
         }
         let (torque, at_tip) = self.sizes(begin, t);
         let mut force = robot.force_of(&torque);
-        if self.0.iter().any(|d| matches!(d.target, Target::Tip(_))) {
+        if self.all.iter().any(|d| matches!(d.target, Target::Tip(_))) {
             let jacobian = robot.tip_jacobian(sines.heading, &sines.posture);
             force = force.plus(jacobian.transpose_product(&at_tip));
         }

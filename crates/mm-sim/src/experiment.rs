@@ -2,6 +2,7 @@
 
 mod controller;
 mod disturbances;
+mod hardware;
 mod initial;
 mod robot;
 mod trajectory;
@@ -36,6 +37,7 @@ impl Experiment {
         let nominal = robot::checked(loaded, params)?;
         let mut actual = robot::scaled(params.with_mass_scaled(file.plant.mass_scale), &file.plant.scale);
         actual.friction = robot::friction(&file.plant.friction);
+        let payload = hardware::payload(loaded, actual)?;
         let actual = robot::checked(loaded, actual)?;
         let clock = clock(&file.simulation);
         if file.simulation.duration_s / file.simulation.plant_step_s > MOST_STEPS {
@@ -43,20 +45,25 @@ impl Experiment {
             let expected = format!("at most {MOST_STEPS:e} plant steps");
             return Err(loaded.problem("simulation.duration_s", message, expected));
         }
-        let plant = Plant::new(actual, disturbances::disturbances(file), file.simulation.plant_step_s);
+        let mut plant = Plant::new(actual, disturbances::disturbances(file), file.simulation.plant_step_s);
+        if let Some(payload) = payload {
+            plant = plant.with_payload(payload);
+        }
         if let Motion::Velocities { segment } = &file.trajectory.motion {
             if file.controller.kind != ControllerKind::None {
                 let message = "imposed velocities leave a controller nothing to do";
                 return Err(loaded.problem("controller.kind", message, "`kind = \"none\"`"));
             }
             initial::refuse_offset(loaded)?;
+            hardware::refuse(loaded)?;
             let start = initial::given(loaded, &nominal);
             return Ok(Self::Open(Imposed::build(loaded, segment, (plant, clock), start)?));
         }
         let (reference, initial) = initial::with_trajectory(loaded, &nominal, trajectory::path(loaded)?)?;
         let stack = controller::stack(loaded, nominal)?;
         trajectory::check_heights(loaded, &actual, &reference, &clock)?;
-        Ok(Self::Closed(Simulation { stack, plant, trajectory: reference, initial, clock }))
+        let hardware = hardware::hardware(file, stack.estimates());
+        Ok(Self::Closed(Simulation { stack, plant, trajectory: reference, initial, clock, hardware }))
     }
 
     /// Runs it.

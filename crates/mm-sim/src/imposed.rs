@@ -132,7 +132,8 @@ impl Imposed {
             let reference = self.reference(t);
             let tip = robot.tip_position(&state.q);
             let sines = self.plant.sines(&state.q);
-            let torque = robot.torque_of(&robot.inverse_dynamics(&state.q, &state.nu, &Velocity::zero()));
+            let loaded = self.plant.robot_at(t);
+            let torque = robot.torque_of(&loaded.inverse_dynamics(&state.q, &state.nu, &Velocity::zero()));
             let wheels = robot.wheel_rates(state.nu.forward, state.nu.yaw_rate);
             let manipulability_squared = robot.manipulability_squared(&sines.posture);
             let within_limits = robot.each_within_limits(&state.q.joints);
@@ -162,6 +163,7 @@ impl Imposed {
                     required_gain: mm_model::Force::zero(),
                     lyapunov: Lyapunov::default(),
                     manipulability_squared,
+                    saturated: false,
                     output: None,
                 };
                 if !recorder.record(&sample)? {

@@ -11,6 +11,7 @@ pub mod digest;
 pub mod disturbance;
 pub mod experiment;
 pub mod figures;
+pub mod hardware;
 pub mod imposed;
 pub mod log;
 pub mod metrics;

@@ -30,10 +30,11 @@ pub use diagnostic::{Problem, ScenarioError};
 pub use docs::markdown;
 pub use schema::schema;
 pub use types::{
-    AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget, Expect,
-    Friction, Gains, GainsFor, Initial, Integrator, Link, Misprints, Motion, Outer, Peaks, PerAxis,
-    PerChannel, Plant, PlantScale, Preset, Robot, RobotFields, ScenarioFile, Segment, Shape, Simulation,
-    Sweep, TipStart, Totals, Trajectory, Tune, WaypointPath,
+    Actuators, AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget,
+    Estimator, EstimatorKind, Expect, Friction, Gains, GainsFor, Initial, Integrator, Link, Misprints,
+    Motion, Motor, Motors, Outer, Peaks, PerAxis, PerChannel, Plant, PlantScale, PoseSource, Preset, Robot,
+    RobotFields, ScenarioFile, Segment, Sensors, Shape, Simulation, Sweep, TipStart, Totals, Trajectory,
+    Tune, WaypointPath,
 };
 
 /// The name that an argument of the command line has in messages.

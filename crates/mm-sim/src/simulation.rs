@@ -5,6 +5,7 @@ use mm_model::{Force, Mechanism, Torque, Velocity};
 use nalgebra::Vector3;
 
 use crate::digest::Digest;
+use crate::hardware::{Hardware, Running};
 use crate::metrics::{Accumulator, Metrics, Tick};
 use crate::monitors::{Lyapunov, MonitorReport, Monitors};
 use crate::plant::{Plant, PlantSines, PlantState};
@@ -23,6 +24,8 @@ pub struct Simulation {
     pub initial: PlantState,
     /// Clock.
     pub clock: Clock,
+    /// Sensors and actuators; none where the controller knows the true state and its torques act at once.
+    pub hardware: Option<Hardware>,
 }
 
 /// Ticks of the controller and steps of the plant.
@@ -75,6 +78,8 @@ pub struct Sample<'a> {
     pub lyapunov: Lyapunov,
     /// Square of the true manipulability.
     pub manipulability_squared: f64,
+    /// Whether the controller or an actuator limited a torque.
+    pub saturated: bool,
     /// The controller's outcomes and signals; none for an imposed motion.
     pub output: Option<&'a Output<f64, 3>>,
 }
@@ -168,7 +173,7 @@ impl RunResult {
 impl Simulation {
     /// Runs the closed loop.
     ///
-    /// At each control tick: true tip and error, controller, metrics, digest; then the plant under the held torque.
+    /// At each control tick: true tip and error, sensors and controller, actuators, metrics, digest; then the plant under the torque.
     ///
     /// # Errors
     /// Those of the recorder; the run ends there.
@@ -189,10 +194,19 @@ impl Simulation {
     }
 }
 
+/// What arrives at the plant's input.
+#[derive(Debug, Clone, Copy)]
+struct AtPlant {
+    torque: Torque<f64, 3>,
+    /// Whether the controller or an actuator limited it.
+    saturated: bool,
+}
+
 /// A run under way.
 struct Run<'a> {
     simulation: &'a Simulation,
     control: mm_control::ControlState<f64, 3>,
+    hardware: Option<Box<Running<'a>>>,
     state: PlantState,
     metrics: Accumulator,
     digest: Digest,
@@ -206,6 +220,9 @@ impl<'a> Run<'a> {
         Self {
             simulation,
             control: simulation.stack.initial_state(),
+            hardware: simulation.hardware.as_ref().map(|hardware| {
+                Box::new(Running::new(hardware, simulation.plant.robot(), &simulation.initial))
+            }),
             state: simulation.initial,
             metrics: Accumulator::new(clock.duration(), clock.period),
             digest: Digest::new(),
@@ -229,24 +246,42 @@ impl<'a> Run<'a> {
             self.metrics.note_last_error(&error);
             return Ok(Some(Ending::Diverged { t, state, value }));
         }
-        let output = match stack.update_with_sines(&mut self.control, &Input { q, nu, reference }, &sines) {
+        let updated = match &mut self.hardware {
+            Some(hardware) if stack.estimates() => {
+                stack.update_measured(&mut self.control, &hardware.measure(&self.state), &reference)
+            }
+            _ => stack.update_with_sines(&mut self.control, &Input { q, nu, reference }, &sines),
+        };
+        let output = match updated {
             Ok(output) => output,
             Err(error) => return Ok(Some(Ending::Refused { t, error })),
         };
+        let mut at_plant = AtPlant { torque: output.torque, saturated: output.status.saturated };
+        if let Some(hardware) = &mut self.hardware {
+            at_plant.saturated |= hardware.command(&output.torque, &nu);
+            at_plant.torque = hardware.torque();
+        }
         let manipulability_squared = robot.manipulability_squared(&sines.posture);
-        self.measure(t, error, &output, manipulability_squared);
+        self.measure(t, error, (&output, &at_plant), manipulability_squared);
         if tick.is_multiple_of(clock.log_every) {
-            let sample = self.sample(t, (tip, &reference), &sines, &output, manipulability_squared);
+            let sample =
+                self.sample(t, (tip, &reference), &sines, (&output, &at_plant), manipulability_squared);
             if !recorder.record(&sample)? {
                 return Ok(Some(Ending::Stopped { t }));
             }
         }
-        self.advance(t, sines, &output.torque);
+        self.advance(t, sines, &at_plant.torque);
         Ok(None)
     }
 
     #[inline]
-    fn measure(&mut self, t: f64, error: Vector3<f64>, output: &Output<f64, 3>, manipulability_squared: f64) {
+    fn measure(
+        &mut self,
+        t: f64,
+        error: Vector3<f64>,
+        (output, at_plant): (&Output<f64, 3>, &AtPlant),
+        manipulability_squared: f64,
+    ) {
         let PlantState { q, nu, .. } = &self.state;
         let robot = self.simulation.plant.robot();
         let wheels = robot.wheel_rates(nu.forward, nu.yaw_rate);
@@ -259,14 +294,14 @@ impl<'a> Run<'a> {
             error,
             nu,
             wheels: (wheels.right, wheels.left),
-            torque: &output.torque,
+            torque: &at_plant.torque,
             sliding: &output.signals.sliding,
             manipulability_squared,
-            saturated: output.status.saturated,
+            saturated: at_plant.saturated,
             within_limits,
         });
         self.monitors.tick(t, output);
-        self.digest.add(t, q, nu, &output.torque);
+        self.digest.add(t, q, nu, &at_plant.torque);
     }
 
     /// A sample for the recorder, with the reaching condition, which only a simulator can evaluate.
@@ -276,7 +311,7 @@ impl<'a> Run<'a> {
         t: f64,
         (tip, reference): (Vector3<f64>, &'b Reference<f64>),
         sines: &PlantSines,
-        output: &'b Output<f64, 3>,
+        (output, at_plant): (&'b Output<f64, 3>, &'b AtPlant),
         manipulability_squared: f64,
     ) -> Sample<'b> {
         let Simulation { stack, plant, .. } = self.simulation;
@@ -284,21 +319,28 @@ impl<'a> Run<'a> {
         let nu = &self.state.nu;
         let signals: &Signals<f64, 3> = &output.signals;
         let margin = &stack.gains().reaching_margin;
-        let required =
-            required_gain((plant.robot(), stack.learns()), (&sines.posture, nu), signals, &external, margin);
+        let required = required_gain(
+            (plant.robot_at(t), stack.learns()),
+            (&sines.posture, nu),
+            signals,
+            &external,
+            margin,
+        );
         let c = &stack.outer().params().sliding_gain;
-        let lyapunov = Lyapunov::evaluate(plant.robot(), (sines, nu), output, &external, c);
+        let lyapunov =
+            Lyapunov::evaluate(plant.robot_at(t), (sines, nu), (output, &at_plant.torque), &external, c);
         self.monitors.sample(&lyapunov, &required);
         Sample {
             t,
             state: &self.state,
             tip,
             reference,
-            torque: &output.torque,
+            torque: &at_plant.torque,
             external,
             required_gain: required,
             lyapunov,
             manipulability_squared,
+            saturated: at_plant.saturated,
             output: Some(output),
         }
     }
@@ -307,6 +349,10 @@ impl<'a> Run<'a> {
     #[inline]
     fn advance(&mut self, t: f64, sines: PlantSines, torque: &Torque<f64, 3>) {
         let Simulation { plant, clock, .. } = self.simulation;
+        if let Some(hardware) = &mut self.hardware {
+            self.state = hardware.advance((t, clock), plant, &self.state, sines);
+            return;
+        }
         self.state = plant.step(t, &self.state, &sines, torque);
         let step = clock.period / f64::from(clock.substeps);
         for i in 1..clock.substeps {

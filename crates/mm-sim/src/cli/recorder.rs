@@ -69,7 +69,7 @@ impl RunRecorder {
     fn log_sample(&mut self, sample: &Sample<'_>) -> LogSample {
         let Sample { state, reference, .. } = sample;
         let start = *self.start_heading.get_or_insert(state.q.heading);
-        let turned = self.half_track * (state.q.heading - start);
+        let turned = self.half_track * (state.q.heading - state.yaw_slip - start);
         let mut out = LogSample {
             t_s: sample.t,
             x: state.q.x,
@@ -99,18 +99,20 @@ impl RunRecorder {
         if let Some(output) = sample.output {
             let signals = &output.signals;
             out.nu_c = velocities(&signals.nu_c);
+            out.estimated = velocities(&signals.nu);
             out.sliding = velocities(&signals.sliding);
             out.torque_commanded = torques(&signals.commanded);
             out.fuzzy = forces(&signals.fuzzy);
             out.learned = forces(&signals.learned);
             out.damping = Real::sqrt(signals.damping_squared);
-            out.saturated = output.status.saturated;
+            out.saturated = sample.saturated;
             out.near_singular = output.status.near_singular;
             out.speed_limited = output.status.speed_limited;
             out.joint_limited = output.status.joint_limited;
             out.torque_limited = cut_torques(output);
         } else {
             out.nu_c = velocities(&state.nu);
+            out.estimated = out.nu_c;
         }
         out
     }

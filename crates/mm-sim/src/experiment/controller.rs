@@ -45,12 +45,20 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
     gains.misprints = Misprints { sign, channels };
     gains.twisting_rate = force(given.twisting_rate_gain, gains.twisting_rate);
     let outer = outer(&robot, &file.controller.outer);
-    ControlStack::try_new(robot, kind, StackParams { period, outer, gains }).map_err(|error| {
+    let estimator = super::hardware::estimator(loaded)?;
+    let delay = file.controller.estimator.delay_s;
+    let stack = ControlStack::try_new(robot, kind, StackParams { period, outer, gains, estimator });
+    stack.and_then(|stack| stack.with_delay(delay)).map_err(|error| {
         let key = match error {
             SetupError::Param(error) => {
                 let name = error.parameter();
                 let outer = OUTER.contains(&name) || name.starts_with("base_") || name.contains("_rad");
-                format!("controller.{}.{name}", if outer { "outer" } else { "gains" })
+                let part = match name {
+                    "cutoff_hz" | "delay_s" => "estimator",
+                    _ if outer => "outer",
+                    _ => "gains",
+                };
+                format!("controller.{part}.{name}")
             }
             _ => "controller.gains".to_owned(),
         };

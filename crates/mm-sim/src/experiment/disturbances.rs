@@ -3,7 +3,7 @@
 use mm_model::Torque;
 use nalgebra::Vector3;
 
-use crate::disturbance::{Disturbance, Disturbances, Shape, Target};
+use crate::disturbance::{Disturbance, Disturbances, Shape, Slip, Target};
 use crate::random::split_mix;
 use crate::scenario::{self, DisturbanceTarget};
 
@@ -20,7 +20,11 @@ pub(super) fn disturbances(file: &scenario::ScenarioFile) -> Disturbances {
             }
             scenario::Shape::Step | scenario::Shape::Pulse => Shape::Constant,
         },
-        amplitude: raw.amplitude_n_m.or(raw.amplitude_n).unwrap_or(0.0),
+        amplitude: [raw.amplitude_n_m, raw.amplitude_n, raw.amplitude_m_s, raw.amplitude_rad_s]
+            .into_iter()
+            .flatten()
+            .next()
+            .unwrap_or(0.0),
         from: raw.from_s,
         to: raw.to_s.unwrap_or(f64::INFINITY),
     });
@@ -41,5 +45,8 @@ fn target(raw: &scenario::Disturbance) -> Target {
             let length = mm_model::Real::sqrt(direction.norm_squared());
             Target::Tip(direction / length)
         }
+        DisturbanceTarget::SlipForward => Target::Slip(Slip { forward: 1.0, ..Slip::default() }),
+        DisturbanceTarget::SlipSideways => Target::Slip(Slip { sideways: 1.0, ..Slip::default() }),
+        DisturbanceTarget::SlipYaw => Target::Slip(Slip { yaw_rate: 1.0, ..Slip::default() }),
     }
 }

@@ -13,7 +13,12 @@ pub(super) fn given(loaded: &Loaded, robot: &Robot<f64, 3>) -> PlantState {
     let initial = &loaded.file.initial;
     let [x, y, heading] = initial.base_pose.unwrap_or([0.0; 3]);
     let joints = initial.joints_rad.unwrap_or(robot.params().rest_posture);
-    PlantState { q: Configuration { x, y, heading, joints }, nu: Velocity::zero(), travel: 0.0 }
+    PlantState {
+        q: Configuration { x, y, heading, joints },
+        nu: Velocity::zero(),
+        travel: 0.0,
+        yaw_slip: 0.0,
+    }
 }
 
 /// The trajectory and the start that goes with it.

@@ -34,7 +34,7 @@ const fn flag(name: &'static str, comment: &'static str, value: fn(&LogSample) -
 }
 
 /// The numbers, in the order they are written after the header.
-pub(super) static NUMBERS: [Number; 70] = [
+pub(super) static NUMBERS: [Number; 75] = [
     number("t_s", "time of the scenario", |s| s.t_s),
     number("x_m", "midpoint of the wheel axle", |s| s.x),
     number("y_m", "midpoint of the wheel axle", |s| s.y),
@@ -70,6 +70,11 @@ pub(super) static NUMBERS: [Number; 70] = [
     number("virtual_joint1_rad_s", "velocity the outer loop asks for: joint 1", |s| s.nu_c[2]),
     number("virtual_joint2_rad_s", "velocity the outer loop asks for: joint 2", |s| s.nu_c[3]),
     number("virtual_joint3_rad_s", "velocity the outer loop asks for: joint 3", |s| s.nu_c[4]),
+    number("estimated_forward_m_s", "velocity the controller works with: forward", |s| s.estimated[0]),
+    number("estimated_yaw_rate_rad_s", "velocity the controller works with: yaw rate", |s| s.estimated[1]),
+    number("estimated_joint1_rad_s", "velocity the controller works with: joint 1", |s| s.estimated[2]),
+    number("estimated_joint2_rad_s", "velocity the controller works with: joint 2", |s| s.estimated[3]),
+    number("estimated_joint3_rad_s", "velocity the controller works with: joint 3", |s| s.estimated[4]),
     number("sliding_forward_m_s", "sliding variable: forward", |s| s.sliding[0]),
     number("sliding_yaw_rate_rad_s", "sliding variable: yaw rate", |s| s.sliding[1]),
     number("sliding_joint1_rad_s", "sliding variable: joint 1", |s| s.sliding[2]),

@@ -34,6 +34,8 @@ pub struct LogSample {
     pub error: [f64; 3],
     /// Virtual velocity that the outer loop asks for, m/s and rad/s.
     pub nu_c: [f64; 5],
+    /// Velocity that the controller worked with: true or estimated, m/s and rad/s.
+    pub estimated: [f64; 5],
     /// Sliding variable, m/s and rad/s.
     pub sliding: [f64; 5],
     /// Torque commanded by the controller, N m.

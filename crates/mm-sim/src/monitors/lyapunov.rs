@@ -1,7 +1,7 @@
 //! The Lyapunov function of the sliding mode (4.34) and its rate, with the robot as it really is.
 
 use mm_control::Output;
-use mm_model::{Force, Mechanism, Robot, Velocity};
+use mm_model::{Force, Mechanism, Robot, Torque, Velocity};
 
 use crate::plant::PlantSines;
 
@@ -24,24 +24,24 @@ pub struct Lyapunov {
 }
 
 impl Lyapunov {
-    /// Evaluates V and V' where the true robot is at `sines` and `nu`, under the torque of `output` and an external force.
+    /// Evaluates V and V' where the true robot is at `sines` and `nu`, under the torque that arrives there and an external force.
     ///
     /// `sliding_gain` is c of the outer loop.
     #[must_use]
     pub fn evaluate(
         robot: &Robot<f64, 3>,
         (sines, nu): (&PlantSines, &Velocity<f64, 3>),
-        output: &Output<f64, 3>,
+        (output, torque): (&Output<f64, 3>, &Torque<f64, 3>),
         external: &Force<f64, 3>,
         sliding_gain: &Velocity<f64, 3>,
     ) -> Self {
         let signals = &output.signals;
         let inertia = robot.inertia(&sines.posture);
-        let force = robot.force_of(&output.torque).plus(*external);
+        let force = robot.force_of(torque).plus(*external);
         let acceleration = robot.acceleration(&inertia, nu, &force);
         let mut dnu_r = signals.dnu_r;
         if output.status.saturated {
-            dnu_r = dnu_r.plus(sliding_gain.zip(nu.minus(signals.nu_c), |c, lag| c * lag));
+            dnu_r = dnu_r.plus(sliding_gain.zip(signals.nu.minus(signals.nu_c), |c, lag| c * lag));
         }
         let s = nu.minus(signals.nu_r);
         let momentum = robot.mass_product(&inertia, &s);

@@ -25,6 +25,8 @@ static BUNDLED: &[(&str, &str)] = bundle![
     "step-disturbed",
     "spiral-compare",
     "square-compare",
+    "square-realistic",
+    "payload-drop",
 ];
 
 /// Returns the name and the text of every bundled scenario, in the order of the thesis.

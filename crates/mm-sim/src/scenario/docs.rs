@@ -158,7 +158,13 @@ fn one_line(text: &str) -> String {
 
 /// The unit that a key ends in.
 fn unit(key: &str) -> &'static str {
-    const UNITS: [(&str, &str); 15] = [
+    const UNITS: [(&str, &str); 21] = [
+        ("rate_limit_n_m_s", "N m/s"),
+        ("_n_m_a", "N m/A"),
+        ("_ohm", "ohm"),
+        ("_h", "H"),
+        ("_v", "V"),
+        ("_a", "A"),
         ("_kg_m2", "kg m^2"),
         ("_n_m_s", "N m s"),
         ("_m_s2", "m/s^2"),

@@ -18,6 +18,7 @@ pub(super) fn check(root: &Node) -> Vec<Problem> {
     imposed(root, &mut problems);
     waypoints(root, &mut problems);
     ramps(root, &mut problems);
+    hardware(root, &mut problems);
     for (index, disturbance) in items(root, "disturbance").iter().enumerate() {
         one_disturbance(disturbance, index, &mut problems);
     }
@@ -209,6 +210,33 @@ fn ramps(root: &Node, problems: &mut Vec<Problem>) {
     }
 }
 
+/// Rules of the payload and the sensors.
+fn hardware(root: &Node, problems: &mut Vec<Problem>) {
+    let from = root.number("plant.payload_from_s").unwrap_or(0.0);
+    if let Some(to) = positive(root, "plant.payload_to_s")
+        && to <= from
+    {
+        let key = "plant.payload_to_s";
+        problems.push(
+            Problem::new(key, format!("found {to}"), root.place_of(key))
+                .expected(format!("more than payload_from_s = {from}")),
+        );
+    }
+    if root.find("plant.sensors.pose_source").and_then(Node::as_str) == Some("odometry") {
+        for name in
+            ["position_resolution_m", "position_noise_m", "heading_resolution_rad", "heading_noise_rad"]
+        {
+            let key = format!("plant.sensors.{name}");
+            if root.find(&key).is_some() {
+                problems.push(
+                    Problem::new(&key, "not a key of pose_source = \"odometry\"", root.place_of(&key))
+                        .expected("`wheel_bits`, which make the error of an odometry"),
+                );
+            }
+        }
+    }
+}
+
 fn one_disturbance(disturbance: &Node, index: usize, problems: &mut Vec<Problem>) {
     let mut report = |name: &str, message: &str, expected: &str| {
         let key = format!("disturbance.{index}.{name}");
@@ -221,13 +249,19 @@ fn one_disturbance(disturbance: &Node, index: usize, problems: &mut Vec<Problem>
         report("to_s", &format!("found {to}"), &format!("more than from_s = {from}"));
     }
     let Some(target) = disturbance.find("on").and_then(Node::as_str) else { return };
-    let on_tip = target == "tip";
-    for (name, for_tip) in [("amplitude_n_m", false), ("amplitude_n", true), ("direction", true)] {
+    let own: &[&str] = match target {
+        "tip" => &["amplitude_n", "direction"],
+        "slip-forward" | "slip-sideways" => &["amplitude_m_s"],
+        "slip-yaw" => &["amplitude_rad_s"],
+        _ => &["amplitude_n_m"],
+    };
+    for name in ["amplitude_n_m", "amplitude_n", "direction", "amplitude_m_s", "amplitude_rad_s"] {
         let is_given = disturbance.find(name).is_some();
-        if is_given && for_tip != on_tip {
-            let right = if on_tip { "`amplitude_n` and `direction`" } else { "`amplitude_n_m`" };
-            report(name, &format!("not a key of on = \"{target}\""), right);
-        } else if !is_given && for_tip == on_tip {
+        let is_own = own.contains(&name);
+        if is_given && !is_own {
+            let right = own.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(" and ");
+            report(name, &format!("not a key of on = \"{target}\""), &right);
+        } else if !is_given && is_own {
             report(name, "missing key", &format!("a value, since on = \"{target}\""));
         }
     }

@@ -7,6 +7,7 @@
 mod controller;
 mod disturbance;
 mod expect;
+mod hardware;
 mod ranges;
 mod robot;
 mod sweep;
@@ -21,6 +22,7 @@ pub(super) use controller::SAME_KEYS;
 pub use controller::{Controller, ControllerKind, Gains, GainsFor, Misprints, Outer, PerAxis, PerChannel};
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
+pub use hardware::{Actuators, Estimator, EstimatorKind, Motor, Motors, PoseSource, Sensors};
 pub use robot::{Friction, Link, Plant, PlantScale, Preset, Robot, RobotFields};
 pub use sweep::Sweep;
 pub(super) use trajectory::WaypointFile;

@@ -7,6 +7,7 @@ use mm_control::LawKind;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
+use super::hardware::Estimator;
 use super::{NonNegative, Positive};
 
 /// The control law and its gains.
@@ -31,6 +32,9 @@ pub struct Controller {
     /// A TOML file with a table for each law, as `mmsim tune` writes it, over `gains`; sought in the folder of the scenario file,
     /// a name given by `--set` from the working directory.
     pub gains_file: Option<String>,
+    /// How configuration and velocity are found from what the sensors read.
+    #[serde(default)]
+    pub estimator: Estimator,
 }
 
 /// Gains of single laws: a table for each law's name.

@@ -5,16 +5,20 @@ use serde::Deserialize;
 
 use super::{NonNegative, Positive};
 
-/// A torque or a force that acts on the plant unknown to the controller.
+/// A torque, a force or a slip that acts on the plant unknown to the controller.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Disturbance {
     /// Where it acts.
     pub on: DisturbanceTarget,
-    /// Torque, for every target but `tip`, where it is required.
+    /// Torque, for a wheel or joint, where it is required.
     pub amplitude_n_m: Option<f64>,
     /// Force, for the target `tip`, where it is required.
     pub amplitude_n: Option<f64>,
+    /// Speed of the slip, for the targets `slip-forward` and `slip-sideways`, where it is required.
+    pub amplitude_m_s: Option<f64>,
+    /// Rate of the slip, for the target `slip-yaw`, where it is required.
+    pub amplitude_rad_s: Option<f64>,
     /// Direction of the force in the world frame, of any length but zero; required for the target `tip`.
     pub direction: Option<[f64; 3]>,
     /// When it starts.
@@ -48,6 +52,12 @@ pub enum DisturbanceTarget {
     Left,
     /// The tip of the arm, as a force.
     Tip,
+    /// The contact of the wheels: the base slips along its heading, unseen by the wheels' encoders.
+    SlipForward,
+    /// The base slips to its left.
+    SlipSideways,
+    /// The base turns counter-clockwise, unseen by the wheels' encoders.
+    SlipYaw,
 }
 
 /// The course of a disturbance over time; zero before `from_s` and after `to_s`.

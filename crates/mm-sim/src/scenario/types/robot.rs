@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::hardware::{Actuators, Sensors};
 use super::{NonNegative, Positive};
 
 /// The robot that the controller knows: a preset or a file, and any field that shall differ from it.
@@ -91,7 +92,7 @@ pub struct Link {
 }
 
 /// How the simulated robot differs from the one that the controller knows.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plant {
     /// Factor on all masses and inertias of the plant, never on those the controller knows.
@@ -104,11 +105,37 @@ pub struct Plant {
     /// Friction in the wheels and joints of the plant.
     #[serde(default)]
     pub friction: Friction,
+    /// Mass of a point load at the tip, unknown to the controller and not scaled.
+    #[serde(default)]
+    #[schemars(with = "NonNegative")]
+    pub payload_kg: f64,
+    /// When the tip takes the load, at the speed of the tip.
+    #[serde(default)]
+    #[schemars(with = "NonNegative")]
+    pub payload_from_s: f64,
+    /// When it drops the load. Default: with the run.
+    #[schemars(with = "Option<Positive>")]
+    pub payload_to_s: Option<f64>,
+    /// What the controller reads.
+    #[serde(default)]
+    pub sensors: Sensors,
+    /// What becomes of its commands.
+    #[serde(default)]
+    pub actuators: Actuators,
 }
 
 impl Default for Plant {
     fn default() -> Self {
-        Self { mass_scale: default_mass_scale(), scale: PlantScale::default(), friction: Friction::default() }
+        Self {
+            mass_scale: default_mass_scale(),
+            scale: PlantScale::default(),
+            friction: Friction::default(),
+            payload_kg: 0.0,
+            payload_from_s: 0.0,
+            payload_to_s: None,
+            sensors: Sensors::default(),
+            actuators: Actuators::default(),
+        }
     }
 }
 
