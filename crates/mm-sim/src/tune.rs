@@ -189,7 +189,7 @@ mod tests {
         let Ok(result) = experiment.run(&mut NoRecorder);
         let m = result.metrics;
         let of = |m: &Metrics, ending| Some(cost(&loaded.file.tune, m, &ending, 10.0));
-        let wanted = m.itae_m_s2.sum + 1e-3 * m.torque_tv_n_m_per_s.sum + 0.5 * m.effort_n2_m2_s;
+        let wanted = m.itae_m_s2.sum + 1e-4 * m.torque_tv_n_m_per_s.sum + 0.5 * m.effort_n2_m2_s;
         assert_eq!(of(&m, Ending::Finished), Some(wanted), "the weighted sum");
         let diverged = |t| of(&m, Ending::Diverged { t, state: "", value: 0.0 });
         assert!(diverged(0.0) > diverged(5.0) && diverged(5.0) > diverged(9.999), "earlier is worse");

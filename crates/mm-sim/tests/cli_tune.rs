@@ -87,7 +87,7 @@ fn a_run_with_the_tuned_gains_gives_what_was_said() {
             }
             let [itae, variation, effort] =
                 ["ITAE sum", "torque variation sum", "effort"].map(|what| number_after(&said, what));
-            let cost = itae + 1e-3 * variation + 1e-9 * effort;
+            let cost = itae + 1e-4 * variation + 1e-9 * effort;
             assert_eq!(Some(number_after(&said, "Cost")), Some(cost), "the cost of {law}");
         }
         assert!(

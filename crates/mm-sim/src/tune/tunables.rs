@@ -51,6 +51,15 @@ const LAYER: Key = Key { name: "boundary_layer", default: |g| velocity(&g.bounda
 const FUZZY: Key = Key { name: "fuzzy_gain", default: |g| force(&g.fuzzy) };
 const FUZZY_SCALE: Key = Key { name: "fuzzy_scale", default: |g| velocity(&g.fuzzy_scale) };
 const OBSERVER: Key = Key { name: "observer_bandwidth_1_s", default: |g| Gain::One(g.observer_bandwidth) };
+const DAMPING: Key = Key { name: "damping_gain_1_s", default: |g| velocity(&g.damping) };
+const STIFFNESS: Key = Key { name: "stiffness_gain_1_s2", default: |g| velocity(&g.stiffness) };
+const INTEGRAL: Key = Key { name: "integral_gain_1_s3", default: |g| velocity(&g.integral) };
+const POSITION: Key = Key { name: "acceptable_position", default: |g| velocity(&g.acceptable_position) };
+const VELOCITY: Key = Key { name: "acceptable_velocity", default: |g| velocity(&g.acceptable_velocity) };
+const BODIES: Key = Key { name: "body_adaptation_gain_1_j", default: |g| Gain::One(g.body_adaptation) };
+const LEARNING: Key = Key { name: "force_adaptation_gain_1_s2", default: |g| Gain::One(g.force_adaptation) };
+const TWISTING: Key = Key { name: "twisting_gain", default: |g| force(&g.twisting) };
+const TWISTING_RATE: Key = Key { name: "twisting_rate_gain", default: |g| force(&g.twisting_rate) };
 
 /// From next to nothing to beyond the torque limits.
 const FORCE: [f64; 2] = [1e-3, 3.0];
@@ -58,6 +67,11 @@ const FORCE: [f64; 2] = [1e-3, 3.0];
 const WIDTH: [f64; 2] = [1e-2, 1e2];
 /// From a slow observer to 0.8 per period, beyond which it rings.
 const BANDWIDTH: [f64; 2] = [0.05, 4.0];
+
+/// A linear gain: from a sluggish loop to poles of 1 per period and beyond, some of which are unstable.
+const LINEAR: [f64; 2] = [0.05, 20.0];
+/// The gains of squares and cubes of a pole.
+const POWER: [f64; 2] = [1e-3, 1e3];
 
 /// A gain and the bounds of its factors.
 type Range = (Key, [f64; 2]);
@@ -76,6 +90,12 @@ pub fn tunables(law: LawKind) -> Vec<Group> {
         LawKind::BsmcSat => (&[(SWITCHING, FORCE), (LAYER, WIDTH)], &[]),
         LawKind::BfsmcThesis => (&[(SWITCHING, FORCE), (FUZZY, FORCE), (FUZZY_SCALE, WIDTH)], &[]),
         LawKind::Bfsmc => (&[(FUZZY, FORCE), (FUZZY_SCALE, WIDTH)], &[(OBSERVER, BANDWIDTH)]),
+        LawKind::Ctc => (&[(DAMPING, LINEAR), (STIFFNESS, POWER)], &[]),
+        LawKind::Pid => (&[(DAMPING, LINEAR), (STIFFNESS, POWER), (INTEGRAL, POWER)], &[]),
+        LawKind::Lqr => (&[(POSITION, WIDTH), (VELOCITY, WIDTH)], &[]),
+        LawKind::SmcDecentralized => (&[(SWITCHING, FORCE), (LAYER, WIDTH)], &[]),
+        LawKind::BacksteppingAdaptive => (&[(DAMPING, LINEAR)], &[(BODIES, POWER), (LEARNING, POWER)]),
+        LawKind::SuperTwisting => (&[(TWISTING, WIDTH), (TWISTING_RATE, WIDTH)], &[]),
         _ => (&[], &[]),
     };
     let parts = by_channel

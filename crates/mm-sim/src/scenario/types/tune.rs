@@ -47,7 +47,7 @@ impl Default for Tune {
             cognitive: 1.49618,
             social: 1.49618,
             bounds: None,
-            torque_variation_weight: 1e-3,
+            torque_variation_weight: 1e-4,
             effort_weight: 1e-9,
         }
     }
