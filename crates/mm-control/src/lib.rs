@@ -39,6 +39,7 @@ pub mod laws;
 mod observer;
 mod outer;
 mod reaching;
+mod signals;
 mod stack;
 mod symmetric3;
 
@@ -47,7 +48,8 @@ pub use estimator::{Estimator, Measurement, WheelAngles};
 pub use laws::{Bfsmc, Gains, Law, LawKind};
 pub use outer::{OuterLoop, OuterOutput, OuterParams};
 pub use reaching::required_gain;
-pub use stack::{ControlStack, ControlState, Input, Output, Reference, Signals, StackParams, Status};
+pub use signals::{Input, Output, Reference, Signals, Status};
+pub use stack::{ControlStack, ControlState, StackParams};
 
 /// The example of the README, compiled and run.
 #[cfg(doctest)]

@@ -1,6 +1,6 @@
 //! The control stack: one call from measurement and reference to torques, the same for every user.
 
-use mm_model::{Configuration, Force, Mechanism, Real, Robot, SinesOf, Torque, Velocity, check};
+use mm_model::{Configuration, Mechanism, Real, Robot, SinesOf, Velocity, check};
 use nalgebra::Vector3;
 
 use crate::estimator::{Estimate, Estimator, Measurement, Memory, Stage};
@@ -8,86 +8,7 @@ use crate::fuzzy::Mamdani;
 use crate::laws::{Bfsmc, Drive, Gains, Law, Memory as LawMemory, Tracking};
 use crate::observer::{MomentumObserver, ObserverState};
 use crate::outer::{OuterLoop, OuterOutput, OuterParams};
-use crate::{ControlError, SetupError};
-
-/// Where the tip should be, and how that moves: position, velocity and acceleration in the world frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reference<T> {
-    /// Position p_d, m.
-    pub position: Vector3<T>,
-    /// Velocity p_d', m/s.
-    pub velocity: Vector3<T>,
-    /// Acceleration p_d'', m/s^2.
-    pub acceleration: Vector3<T>,
-}
-
-/// What enters one update.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Input<T, const N: usize> {
-    /// Configuration of the robot.
-    pub q: Configuration<T, N>,
-    /// Its quasi-velocities.
-    pub nu: Velocity<T, N>,
-    /// The reference at this instant.
-    pub reference: Reference<T>,
-}
-
-/// Numerical outcomes of an update. None of them is an error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Status {
-    /// A torque was cut to its limit.
-    pub saturated: bool,
-    /// The manipulability of what is free to move is below its threshold, where the pseudo-inverse is damped if damping is on.
-    pub near_singular: bool,
-    /// The correction of the tip's error was cut to its largest speed, or the base held to the speed up to which the model holds.
-    pub speed_limited: bool,
-    /// A joint's rate was held to the bound that keeps it within its limits.
-    pub joint_limited: bool,
-    /// A joint is outside its limits.
-    pub beyond_joint_limit: bool,
-}
-
-/// The signals of the law, for logs and monitors.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Signals<T, const N: usize> {
-    /// Velocity that the law worked with: the caller's, or the estimated one.
-    pub nu: Velocity<T, N>,
-    /// Tip by the controller's kinematics, m.
-    pub tip: Vector3<T>,
-    /// Tip error, actual minus desired, m.
-    pub error: Vector3<T>,
-    /// Virtual control.
-    pub nu_c: Velocity<T, N>,
-    /// Reference velocity of the sliding mode, nu_c - c integral(nu - nu_c).
-    pub nu_r: Velocity<T, N>,
-    /// Its rate.
-    pub dnu_r: Velocity<T, N>,
-    /// Sliding variable s = nu - nu_r.
-    pub sliding: Velocity<T, N>,
-    /// The law's force as far as it takes the model as true; the rest opposes s.
-    pub equivalent: Force<T, N>,
-    /// Force of the fuzzy system.
-    pub fuzzy: Force<T, N>,
-    /// Learned disturbance.
-    pub learned: Force<T, N>,
-    /// Torque asked for, before the limits.
-    pub commanded: Torque<T, N>,
-    /// det(J J').
-    pub manipulability_squared: T,
-    /// Square of the damping.
-    pub damping_squared: T,
-}
-
-/// What one update gives.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Output<T, const N: usize> {
-    /// Torque to apply until the next update, within the limits.
-    pub torque: Torque<T, N>,
-    /// Outcomes.
-    pub status: Status,
-    /// Signals of the law.
-    pub signals: Signals<T, N>,
-}
+use crate::{ControlError, Input, Output, Reference, SetupError, Signals, Status};
 
 /// What the stack remembers between updates.
 #[derive(Debug, Clone, Copy, PartialEq)]
