@@ -104,14 +104,28 @@ impl Search<'_> {
         self.ranges.iter().map(|[low, span]| (-low / span).clamp(0.0, 1.0)).collect()
     }
 
-    /// Runs the scenario with the gains that factors make; none if it was asked to stop.
+    /// Runs the scenario and its other versions with the gains that factors make; none if it was asked to stop.
+    ///
+    /// The cost is that of the worst version, the result that of the scenario itself.
     fn trial(&self, factors: &[f64]) -> Option<Trial> {
-        let impossible = Trial { cost: 2.0 * EARLY_END, result: None };
-        let edits: Vec<String> = scaled(self.law, &self.default, factors)
+        let gains: Vec<String> = scaled(self.law, &self.default, factors)
             .iter()
             .map(|(key, gain)| format!("controller.gains.{key}={gain}"))
             .collect();
-        let Ok(edited) = self.loaded.edited(&edits) else { return Some(impossible) };
+        let mut trial = self.run(&gains)?;
+        for version in &self.loaded.file.tune.also {
+            if trial.cost > EARLY_END {
+                break;
+            }
+            trial.cost = trial.cost.max(self.run(&[version.as_slice(), &gains].concat())?.cost);
+        }
+        Some(trial)
+    }
+
+    /// Runs the scenario with edits; none if it was asked to stop.
+    fn run(&self, edits: &[String]) -> Option<Trial> {
+        let impossible = Trial { cost: 2.0 * EARLY_END, result: None };
+        let Ok(edited) = self.loaded.edited(edits) else { return Some(impossible) };
         let Ok(experiment) = Experiment::build(&edited) else { return Some(impossible) };
         let Ok(result) = experiment.run(&mut Stopper(self.stop));
         if matches!(result.ending, Ending::Stopped { .. }) {

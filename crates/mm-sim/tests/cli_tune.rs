@@ -166,3 +166,26 @@ fn what_cannot_be_tuned_is_said_and_leaves_no_file() {
     let left: Vec<_> = std::fs::read_dir(folder.path(".")).expect("a folder").collect();
     assert_eq!(left.len(), 1, "the scenario alone: {left:?}");
 }
+
+#[test]
+fn the_worst_version_counts() {
+    let folder = folder("tune-also");
+    let once = ["--controller", "bfsmc", "--set", "tune.particles=1", "--set", "tune.iterations=1"];
+    let cost =
+        |more: &[&str]| number_after(&comments(&tune(&folder, &[&once, more].concat()), "bfsmc"), "Cost");
+    let alone = cost(&[]);
+    let heavy = cost(&["--set", "plant.mass_scale=1.5"]);
+    assert!(heavy > alone, "a plant that is off costs more: {heavy} against {alone}");
+    let also = "tune.also=[[\"plant.mass_scale=1.5\"], [\"plant.mass_scale=1.0\"]]";
+    let text = tune(&folder, &[once.as_slice(), &["--set", also]].concat());
+    let said = comments(&text, "bfsmc");
+    assert_eq!(Some(number_after(&said, "Cost")), Some(heavy), "the worst of the three");
+    assert!(
+        text.contains("its versions with plant.mass_scale=1.5; plant.mass_scale=1.0."),
+        "they are said:\n{text}"
+    );
+    let bad = "tune.also=[[\"plant.mass_scal=1.5\"]]";
+    let ended =
+        folder.expect(2, &["tune", "--scenario", "short.toml", "--controller", "bfsmc", "--set", bad]);
+    assert!(ended.stderr.contains("`mass_scale`"), "the nearest key:\n{}", ended.stderr);
+}

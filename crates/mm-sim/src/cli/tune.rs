@@ -95,7 +95,11 @@ fn run(args: &TuneArgs, spec: &str, laws: &[LawKind]) -> Result<Exit, Exit> {
     let mut prepared = Vec::new();
     for law in laws {
         let kind = format!("controller.kind=\"{}\"", law.name());
-        prepared.push((*law, prepare(spec, &[args.set.as_slice(), &[kind]].concat())?));
+        let sets = [args.set.as_slice(), &[kind]].concat();
+        for version in &loaded.file.tune.also {
+            prepare(spec, &[sets.as_slice(), version].concat())?;
+        }
+        prepared.push((*law, prepare(spec, &sets)?));
     }
     let seed = args.seed.unwrap_or(loaded.file.tune.seed);
     let tuned = search(args, &loaded, &prepared, seed)?;

@@ -30,6 +30,14 @@ pub fn to_toml(command: &str, loaded: &Loaded, seed: u64, all: &[Tuned]) -> Stri
         tune.torque_variation_weight,
         tune.effort_weight,
     );
+    if !tune.also.is_empty() {
+        let versions: Vec<String> = tune.also.iter().map(|version| version.join(" ")).collect();
+        let _ = writeln!(
+            out,
+            "# The cost is that of the worst of the scenario, whose metrics follow, and of its versions with {}.",
+            versions.join("; ").escape_debug()
+        );
+    }
     for tuned in all {
         law(&mut out, tuned);
     }

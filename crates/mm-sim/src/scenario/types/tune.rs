@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::{NonNegative, Positive};
 
 /// Budget and cost of `mmsim tune`, a particle swarm (4.45), (4.46).
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Tune {
     /// Particles of the swarm, at least 1.
@@ -35,6 +35,9 @@ pub struct Tune {
     /// Weight of the effort, m s/(N^2 m^2).
     #[schemars(with = "NonNegative")]
     pub effort_weight: f64,
+    /// Other versions of the scenario that the gains have to do for too, each a list of edits `KEY=VALUE`: the cost is that of the
+    /// worst version.
+    pub also: Vec<Vec<String>>,
 }
 
 impl Default for Tune {
@@ -49,6 +52,7 @@ impl Default for Tune {
             bounds: None,
             torque_variation_weight: 1e-4,
             effort_weight: 1e-9,
+            also: Vec::new(),
         }
     }
 }
