@@ -62,7 +62,7 @@ const VARIANTS: [Variant; 9] = [
     },
     variant("for comparison: bsmc-sat, gain k", "bsmc-sat", [1.0, 0.0]),
     Variant {
-        name: "for comparison: bfsmc of this project, default gains",
+        name: "for comparison: bfsmc of this project, tuned gains",
         controller: "bfsmc",
         factors: [1.0, 1.0],
         more: &[],

@@ -14,6 +14,8 @@ pub enum SetupError {
     Param(ParamError),
     /// The rule base of a fuzzy part.
     Fuzzy(FuzzyError),
+    /// The Riccati equation of `lqr` was not solved: its weights are too far apart.
+    Riccati,
 }
 
 impl fmt::Display for SetupError {
@@ -21,6 +23,9 @@ impl fmt::Display for SetupError {
         match self {
             Self::Param(error) => error.fmt(f),
             Self::Fuzzy(error) => write!(f, "fuzzy rule base: {error}"),
+            Self::Riccati => {
+                f.write_str("the Riccati equation was not solved: acceptable values too far apart")
+            }
         }
     }
 }

@@ -181,7 +181,7 @@ where
         &self.outer
     }
 
-    /// The switching law.
+    /// The inner law.
     #[must_use]
     pub const fn law(&self) -> &Law<T, N> {
         &self.law

@@ -20,9 +20,11 @@ mod common {
 
 use common::plant::Plant;
 use common::random::Random;
-use mm_control::laws::{ChannelMatrix, EffectiveInertia, StateFeedback};
-use mm_control::{ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference, StackParams};
-use mm_model::{Configuration, Force, Mechanism, ParamError, Robot, RobotParams, Torque, Velocity};
+use mm_control::laws::{ChannelMatrix, StateFeedback};
+use mm_control::{
+    ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference, SetupError, StackParams,
+};
+use mm_model::{Configuration, Force, Mechanism, Robot, RobotParams, Torque, Velocity};
 use nalgebra::{SMatrix, SVector, Vector3};
 
 type Vector = SVector<f64, 5>;
@@ -82,8 +84,7 @@ fn nearly_alone(robot: &Robot<f64, 3>, body: usize) -> Robot<f64, 3> {
     if body != 0 {
         (params.base_mass, params.base_yaw_inertia) = (dust, dust);
     }
-    for (i, link) in params.links.iter_mut().enumerate().filter(|(i, _)| i + 1 != body) {
-        let _ = i;
+    for (_, link) in params.links.iter_mut().enumerate().filter(|(i, _)| i + 1 != body) {
         link.mass = dust;
         (link.axial_inertia, link.pitch_inertia, link.normal_inertia) = (dust, dust, dust);
     }
@@ -122,8 +123,10 @@ impl Twin {
         let s = nu - nu_r;
         let (mass, coriolis, gravity) = dense(&robot, q, speed);
         let friction = of(robot.friction(speed).channels());
-        let EffectiveInertia(own) = EffectiveInertia::of(&robot);
-        let own = of(own.channels());
+        let rest = Configuration { joints: robot.params().rest_posture, ..Configuration::zero() };
+        let (mass_at_rest, _, _) = dense(&robot, &rest, &Velocity::zero());
+        let inverse = mass_at_rest.lu().solve(&Matrix::identity()).unwrap();
+        let own = Vector::from_fn(|i, _| 1.0 / inverse[(i, i)]);
         let (kd, kp) = (of(gains.damping.channels()), of(gains.stiffness.channels()));
         let sign = s.map(|s| if s > 0.0 { 1.0 } else { -1.0 });
         let equivalent = [mass * dnu_r, coriolis * nu_r, gravity, friction];
@@ -145,7 +148,6 @@ impl Twin {
                 vec![out]
             }
             LawKind::Lqr => {
-                let rest = Configuration { joints: robot.params().rest_posture, ..Configuration::zero() };
                 let (mass0, _, gravity0) = dense(&robot, &rest, &Velocity::zero());
                 let (k1, k2) = hamiltonian_twin(&mass0, &gains);
                 vec![mass0 * dnu_c, gravity0, -(k1 * self.integral), -(k2 * lag)]
@@ -313,7 +315,7 @@ fn weights_beyond_all_measure_are_refused() {
     let mut gains = Gains::for_robot(&thesis(), LawKind::Lqr, PERIOD);
     gains.acceptable_position = Velocity { forward: 1e-200, ..gains.acceptable_position };
     let refused = Law::try_new(LawKind::Lqr, &thesis(), &gains).err();
-    assert_eq!(refused, Some(ParamError::OutOfRange("acceptable_force").into()), "weights that overflow");
+    assert_eq!(refused, Some(SetupError::Riccati), "weights that overflow");
 }
 
 #[test]

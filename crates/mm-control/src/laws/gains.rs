@@ -1,4 +1,4 @@
-//! The gains of all switching laws, with defaults that follow the robot.
+//! The gains of all laws, with defaults that follow the robot.
 
 use super::Misprints;
 use mm_model::{Force, Mechanism, ParamError, Real, Robot, Torque, Velocity, check};

@@ -1,6 +1,8 @@
 //! The Riccati equation of the linear quadratic regulator for x'' = M^-1 f.
 
-use mm_model::{Force, ParamError, Real, Velocity};
+use mm_model::{Force, Real, Velocity};
+
+use crate::SetupError;
 
 /// A square matrix over the channels, by rows: rows are forces, columns velocities.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -151,7 +153,7 @@ impl<T: Real, const N: usize> StateFeedback<T, N> {
         inverse_inertia: &ChannelMatrix<T, N>,
         (position, velocity): (&Velocity<T, N>, &Velocity<T, N>),
         force: &Force<T, N>,
-    ) -> Result<Self, ParamError> {
+    ) -> Result<Self, SetupError> {
         let square = |x: T| x * x;
         let inverse_r = ChannelMatrix::diagonal(force.channels().map(square));
         let q1 = ChannelMatrix::diagonal(position.channels().map(|x| T::ONE / square(x)));
@@ -181,6 +183,6 @@ impl<T: Real, const N: usize> StateFeedback<T, N> {
             p2 = p2.plus(&d2.scaled(step));
             p3 = p3.plus(&d3.scaled(step));
         }
-        Err(ParamError::OutOfRange("acceptable_force"))
+        Err(SetupError::Riccati)
     }
 }

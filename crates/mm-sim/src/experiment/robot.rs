@@ -78,7 +78,7 @@ fn demand_complete(loaded: &Loaded) -> Result<(), ScenarioError> {
     Err(loaded.problem(
         "robot.file",
         format!("the robot file leaves open {list}"),
-        "these keys in the robot file or in [robot], or `preset = \"thesis\"` to take them from",
+        "these keys in the robot file or in [robot]",
     ))
 }
 

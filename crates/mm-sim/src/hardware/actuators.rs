@@ -131,6 +131,11 @@ impl Worker {
         self.output = end;
         match &self.motor {
             None => [begin, middle, end],
+            // Without inductance the current is where the drive heads for, at each of the three instants.
+            Some(motor) if motor.is_immediate() => [begin, middle, end].map(|torque| {
+                self.current = motor.target(torque, rate).0;
+                motor.torque(self.current)
+            }),
             Some(motor) => {
                 let (target, _) = motor.target(middle, rate);
                 motor.advance(&mut self.current, target)

@@ -12,7 +12,8 @@ use mm_model::Real;
 /// current then settles with the time constant L/R, and the torque falls with the rate once the supply is used up. At a constant rate
 /// the torque is at most k n (supply - k n |w|)/R against the back-EMF.
 ///
-/// Approximations: the rate is the one at the begin of a plant step, throughout the step; the gear has no losses, no backlash and no
+/// Approximations: the rate is the one at the begin of a plant step, throughout the step; with an inductance, the current heads for
+/// the torque asked for in the middle of the step, throughout the step; the gear has no losses, no backlash and no
 /// inertia of its own (the links' inertias may hold n^2 times the rotor's); the drive knows the rate and the constants exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motor {
