@@ -34,16 +34,16 @@ fn random_plant(seed: u64, duration: f64) -> Simulation {
         }
     }
     let robot = Robot::try_new(params).expect("a robot of positive masses");
-    let disturbances = (0..3).map(|joint| {
+    let disturbances = (0..3_u8).map(|joint| {
         let mut joints = [0.0; 3];
-        joints[joint] = 1.0;
+        joints[usize::from(joint)] = 1.0;
         let from = random.between(0.0, 0.5 * duration);
         let shape = match random.between(0.0, 3.0) {
             kind if kind < 1.0 => Shape::Constant,
             kind if kind < 2.0 => {
                 Shape::Sine { frequency: random.between(0.2, 10.0), phase: random.between(0.0, 6.0) }
             }
-            _ => Shape::Noise { hold: random.between(0.01, 0.5), seed: seed ^ 77 },
+            _ => Shape::Noise { hold: random.between(0.01, 0.5), seed: seed ^ (77 + u64::from(joint)) },
         };
         Disturbance {
             target: Target::Torque(Torque { right: 0.0, left: 0.0, joints }),

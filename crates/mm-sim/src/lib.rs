@@ -28,6 +28,7 @@ pub mod summary;
 pub mod sweep;
 pub mod trajectory;
 pub mod tune;
+mod whole;
 
 /// Version of the stack.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

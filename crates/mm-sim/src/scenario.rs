@@ -64,6 +64,21 @@ impl Loaded {
         self.sources.first().map_or("", |source| &source.text)
     }
 
+    /// Returns the gains that came from the file that `controller.gains_file` names, by key, as TOML.
+    pub(crate) fn gains_of_file(&self) -> Vec<(&str, String)> {
+        let is_file = |node: &Node| {
+            let of = self.sources.get(node.place.source);
+            node.place.source > 0 && of.is_some_and(|source| source.name != SET_NAME)
+        };
+        let gains = self.root.find("controller.gains").and_then(Node::as_table);
+        gains
+            .into_iter()
+            .flatten()
+            .filter(|(_, entry)| is_file(&entry.node))
+            .map(|(key, entry)| (key.as_str(), inline(&entry.node)))
+            .collect()
+    }
+
     /// Returns the files that the scenario names, such as a robot or waypoints: each as it was found, and its text.
     pub fn files(&self) -> impl Iterator<Item = (&str, &str)> {
         let named = self.sources.iter().skip(1).filter(|source| source.name != SET_NAME);
@@ -96,12 +111,15 @@ impl Loaded {
 
     /// Returns the same scenario with more edits laid over it, as if they had been given to [`load`] after the others.
     ///
+    /// Files that the scenario names are not read again, whatever has become of them; those that the edits name are.
+    ///
     /// # Errors
     ///
     /// As [`load`].
     pub fn edited(&self, more: &[String]) -> Result<Self, ScenarioError> {
         let sets = [self.sets.as_slice(), more].concat();
-        assemble(self.source_name(), self.text(), &self.folder, &sets)
+        let files = Files { folder: &self.folder, known: &self.sources, settled: self.sets.len() };
+        assemble((self.source_name(), self.text()), &files, &sets)
     }
 
     /// Returns the error that something is wrong at a dotted key, for example `robot.link.1.mass_kg`.
@@ -130,11 +148,11 @@ pub fn load(spec: &str, sets: &[String]) -> Result<Loaded, ScenarioError> {
     if path.exists() && !path.is_dir() {
         let text = read(path, "scenario", spec)?;
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
-        return assemble(spec, &text, &folder, sets);
+        return assemble((spec, &text), &Files::of(&folder), sets);
     }
     let is_bare = path.file_name().is_some_and(|name| name == spec);
     if is_bare && let Some(text) = bundled::find(spec) {
-        return assemble(spec, text, Path::new(""), sets);
+        return assemble((spec, text), &Files::of(Path::new("")), sets);
     }
     let what = match (path.is_dir(), is_bare) {
         (true, _) => "it is a folder",
@@ -154,7 +172,7 @@ pub fn load(spec: &str, sets: &[String]) -> Result<Loaded, ScenarioError> {
 ///
 /// As [`load`].
 pub fn from_text(name: &str, text: &str, sets: &[String]) -> Result<Loaded, ScenarioError> {
-    assemble(name, text, Path::new(""), sets)
+    assemble((name, text), &Files::of(Path::new("")), sets)
 }
 
 /// The text of a file of a format; what is wrong with it otherwise, with the place of the first byte that is no text.
@@ -176,7 +194,7 @@ fn read(path: &Path, what: &str, name: &str) -> Result<String, ScenarioError> {
 }
 
 /// Parses, edits, checks and converts.
-fn assemble(name: &str, text: &str, folder: &Path, sets: &[String]) -> Result<Loaded, ScenarioError> {
+fn assemble((name, text): (&str, &str), files: &Files<'_>, sets: &[String]) -> Result<Loaded, ScenarioError> {
     let mut sources = vec![Source { name: name.to_owned(), text: text.to_owned() }];
     let mut root = parse(&sources, 0)?;
     let mut problems = Vec::new();
@@ -189,9 +207,9 @@ fn assemble(name: &str, text: &str, folder: &Path, sets: &[String]) -> Result<Lo
     }
     problems.extend(check::check(&sources, &schema::SCENARIO, &root));
     problems.extend(rules::check(&root));
-    robot_file(&mut root, &mut sources, folder, &mut problems)?;
-    waypoints::file(&mut root, &mut sources, folder, &mut problems)?;
-    gains::resolve(&mut root, &mut sources, folder, &mut problems)?;
+    robot_file(&mut root, &mut sources, files, &mut problems)?;
+    waypoints::file(&mut root, &mut sources, files, &mut problems)?;
+    gains::resolve(&mut root, &mut sources, files, &mut problems)?;
     if !problems.is_empty() {
         return Err(ScenarioError::new(&sources, problems));
     }
@@ -199,7 +217,7 @@ fn assemble(name: &str, text: &str, folder: &Path, sets: &[String]) -> Result<Lo
         let problem = Problem::new("", error.to_string(), root.place.clone());
         ScenarioError::new(&sources, vec![problem])
     })?;
-    Ok(Loaded { file, sources, root, folder: folder.to_path_buf(), sets: sets.to_vec() })
+    Ok(Loaded { file, sources, root, folder: files.folder.to_path_buf(), sets: sets.to_vec() })
 }
 
 fn parse(sources: &[Source], index: usize) -> Result<Node, ScenarioError> {
@@ -213,11 +231,44 @@ fn parse(sources: &[Source], index: usize) -> Result<Node, ScenarioError> {
     })
 }
 
+/// A gain as TOML on one line.
+fn inline(node: &Node) -> String {
+    let Value::Table(table) = &node.value else {
+        // Numbers, flags and lists of them are the same in JSON and TOML.
+        return node.to_json().to_string();
+    };
+    let entries: Vec<_> =
+        table.iter().map(|(key, entry)| format!("{key} = {}", inline(&entry.node))).collect();
+    format!("{{{}}}", entries.join(", "))
+}
+
+/// Where the files are that a scenario names.
+struct Files<'a> {
+    /// Folder of the scenario file.
+    folder: &'a Path,
+    /// Texts that were read before.
+    known: &'a [Source],
+    /// Last of the texts, the file and its edits, that were there when they were read.
+    settled: usize,
+}
+
+impl<'a> Files<'a> {
+    /// Files of which none was read before.
+    const fn of(folder: &'a Path) -> Self {
+        Self { folder, known: &[], settled: 0 }
+    }
+}
+
 /// Reads a file that a key names: from the folder of the scenario file or, named by an argument, from the working directory.
-fn linked(key: &Node, name: &str, folder: &Path, format: &str) -> Result<Source, String> {
+fn linked(key: &Node, name: &str, files: &Files<'_>, format: &str) -> Result<Source, String> {
     let is_in_scenario = key.place.source == 0;
-    let path = if is_in_scenario { folder.join(name) } else { PathBuf::from(name) };
+    let path = if is_in_scenario { files.folder.join(name) } else { PathBuf::from(name) };
     let shown = path.display().to_string();
+    // The texts of the file and its edits come first, those of files that they name after them.
+    let read_before = files.known.iter().skip(files.settled + 1).find(|source| source.name == shown);
+    if let Some(source) = read_before.filter(|_| key.place.source <= files.settled) {
+        return Ok(source.clone());
+    }
     match read_text(&path, format) {
         Ok(text) => Ok(Source { name: shown, text }),
         Err(error) => Err(format!("cannot read `{shown}`: {error}")),
@@ -229,13 +280,13 @@ fn included(
     root: &Node,
     (key, what): (&str, &str),
     sources: &mut Vec<Source>,
-    folder: &Path,
+    files: &Files<'_>,
     problems: &mut Vec<Problem>,
 ) -> Result<Option<Node>, ScenarioError> {
     let Some(file) = root.find(key) else { return Ok(None) };
     let Some(name) = file.as_str() else { return Ok(None) };
     let source = sources.len();
-    match linked(file, name, folder, "TOML") {
+    match linked(file, name, files, "TOML") {
         Ok(linked) => sources.push(linked),
         Err(message) => {
             problems.push(Problem::new(key, message, file.place.clone()).expected(what));
@@ -249,10 +300,10 @@ fn included(
 fn robot_file(
     root: &mut Node,
     sources: &mut Vec<Source>,
-    folder: &Path,
+    files: &Files<'_>,
     problems: &mut Vec<Problem>,
 ) -> Result<(), ScenarioError> {
-    let Some(mut below) = included(root, ("robot.file", "a robot file"), sources, folder, problems)? else {
+    let Some(mut below) = included(root, ("robot.file", "a robot file"), sources, files, problems)? else {
         return Ok(());
     };
     let found = check::check(sources, &schema::ROBOT, &below);

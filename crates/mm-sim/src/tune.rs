@@ -65,7 +65,14 @@ pub struct Tuned {
     pub trial: Trial,
     /// Cost of the default gains.
     pub default_cost: f64,
+    /// Cost of the gains that the scenario gives.
+    pub given_cost: f64,
+    /// Gains that a file of gains gave and that were not tuned, by key, as TOML: without them the tuned ones would be others.
+    pub kept: Vec<(String, String)>,
 }
+
+/// A law and what came of its tuning.
+pub type Outcome = (LawKind, Result<Tuned, TuneError>);
 
 /// Cost of a run that ended at time `t` of `duration`, early or not.
 #[must_use]
@@ -108,16 +115,23 @@ impl Search<'_> {
     ///
     /// The cost is that of the worst version, the result that of the scenario itself.
     fn trial(&self, factors: &[f64]) -> Option<Trial> {
+        let law = self.law.name();
         let gains: Vec<String> = scaled(self.law, &self.default, factors)
             .iter()
-            .map(|(key, gain)| format!("controller.gains.{key}={gain}"))
+            // What is meant for one law and said last comes before everything else.
+            .map(|(key, gain)| format!("controller.gains_for.{law}.{key}={gain}"))
             .collect();
-        let mut trial = self.run(&gains)?;
+        self.worst(&gains)
+    }
+
+    /// Runs the scenario and its other versions with more edits, as [`Self::trial`].
+    fn worst(&self, edits: &[String]) -> Option<Trial> {
+        let mut trial = self.run(edits)?;
         for version in &self.loaded.file.tune.also {
             if trial.cost > EARLY_END {
                 break;
             }
-            trial.cost = trial.cost.max(self.run(&[version.as_slice(), &gains].concat())?.cost);
+            trial.cost = trial.cost.max(self.run(&[version.as_slice(), edits].concat())?.cost);
         }
         Some(trial)
     }
@@ -183,8 +197,12 @@ pub fn tune(
         return Err(TuneError::NoneFinished { law: law.name() });
     }
     let default_cost = search.trial(&vec![1.0; factors.len()]).ok_or(TuneError::Stopped)?.cost;
+    let given_cost = search.worst(&[]).ok_or(TuneError::Stopped)?.cost;
     let gains = scaled(law, &search.default, &factors);
-    Ok(Tuned { law, factors, gains, trial, default_cost })
+    let is_kept = |key: &str| gains.iter().all(|(tuned, _)| *tuned != key);
+    let of_file = loaded.gains_of_file().into_iter();
+    let kept = of_file.filter(|(key, _)| is_kept(key)).map(|(key, gain)| (key.to_owned(), gain)).collect();
+    Ok(Tuned { law, factors, gains, trial, default_cost, given_cost, kept })
 }
 
 #[cfg(test)]

@@ -111,9 +111,24 @@ fn another_sweep_leaves_the_file_alone() {
     let ended = folder.expect(2, &["sweep", "--scenario", "it's small.toml", "--samples", "2"]);
     assert!(ended.stderr.contains("`something else`"), "not a file of samples:\n{}", ended.stderr);
     assert_eq!(file(&folder), "something else", "and left alone");
-    folder.write(FILE, &text.replacen("\n1,", "\n7,", 1));
-    let ended = folder.expect(2, &["sweep", "--scenario", "it's small.toml", "--samples", "2"]);
-    assert!(ended.stderr.contains("small.sweep.csv:4: not sample 1"), "the line:\n{}", ended.stderr);
+    // The number of another sample, the seed of another, no number for the RMS error, half a digest.
+    let row = rows(&text)[1].clone();
+    let end = &row[10][16..];
+    for (found, other) in [
+        ("\n1,".to_owned(), "\n7,".to_owned()),
+        (format!("\n1,{},", row[1]), format!("\n1,{},", rows(&text)[0][1])),
+        (format!("finished,{},{},", row[3], row[4]), format!("finished,{},NaN,", row[3])),
+        (format!("{end}\n"), "\n".to_owned()),
+    ] {
+        // Of the last sample, whatever else has the same text.
+        let (head, tail) = text.split_at(text.rfind("\n1,").expect("sample 1"));
+        let changed = format!("{head}{}", tail.replacen(&found, &other, 1));
+        assert_ne!(changed, text, "{found:?} is there");
+        folder.write(FILE, &changed);
+        let ended = folder.expect(2, &["sweep", "--scenario", "it's small.toml", "--samples", "2"]);
+        assert!(ended.stderr.contains("small.sweep.csv:4: not sample 1"), "{other:?}:\n{}", ended.stderr);
+        assert_eq!(file(&folder), changed, "and left alone");
+    }
     folder.expect(0, &["sweep", "--scenario", "it's small.toml", "--samples", "2", "--controller", "bsmc"]);
     assert!(folder.path("out/small.bsmc.sweep.csv").is_file(), "a file for each controller");
 }
@@ -177,7 +192,9 @@ fn the_printed_commands_give_the_digests_again() {
     let at = usize::try_from(worst["sample"].as_u64().expect("a number")).expect("a small one");
     assert_eq!(digest_of(&folder, worst["command"].as_str().expect("a command")), rows[at][10], "the worst");
     let table = folder.expect(0, &[&["sweep", "--scenario", "it's small.toml"], args.as_slice()].concat());
-    for part in ["small with bsmc: 3 samples", "RMS error", "3 of 3", "the worst by", "sample 2 failed"] {
+    for part in
+        ["small with bsmc: 3 samples", "RMS error", "3 of 3", "worst of the finished", "sample 2 failed"]
+    {
         assert!(table.stdout.contains(part), "{part:?} is not in:\n{}", table.stdout);
     }
 }
@@ -243,6 +260,12 @@ fn samples_that_run_away_are_failures() {
     assert!(rmse["median"].is_null() && rmse["worst"].is_null(), "nothing finished: {rmse}");
     let table = folder.expect(0, &["sweep", "--scenario", "away.toml", "--samples", "2"]).stdout;
     assert!(table.contains("sample 1 failed, diverged at t = 3."), "the table:\n{table}");
+    let many =
+        ["--samples", "8", "--set", "simulation.duration_s=0.02", "--set", "sweep.fail_above_rmse_m=0"];
+    let args = [["sweep", "--scenario", "away.toml", "--fresh"].as_slice(), &many].concat();
+    let table = folder.expect(0, &args).stdout;
+    assert!(table.contains("sample 4 failed") && !table.contains("sample 5 failed"), "five of 8:\n{table}");
+    assert!(table.contains("3 more failed, see ./out/away.sweep.csv"), "and how many more:\n{table}");
 }
 
 #[test]

@@ -491,3 +491,21 @@ fn a_file_that_is_no_text_is_refused_with_the_place_of_its_first_bad_byte() {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");
     }
 }
+
+#[test]
+fn a_delay_is_drawn_only_where_an_estimator_runs() {
+    let load = |more: &str| scenario::from_text("test.toml", &format!("{GOOD}{more}"), &[]);
+    let drawn = "[sweep]\ndelay_periods = 2\n";
+    for more in ["", "[plant.sensors]\ndelay_periods = 1\n", "[controller.estimator]\nkind = \"none\"\n"] {
+        let text = format!("{more}{drawn}");
+        let error = load(&text).err().unwrap_or_else(|| panic!("accepted: {text}")).to_string();
+        for part in ["`sweep.delay_periods`", "test.toml:", "controller.estimator.kind"] {
+            assert!(error.contains(part), "{part:?} is not in:\n{error}");
+        }
+    }
+    for more in ["[plant.sensors]\nbits = 12\n", "[controller.estimator]\nkind = \"observer\"\n"] {
+        load(&format!("{more}{drawn}")).unwrap_or_else(|error| panic!("{error}"));
+    }
+    let error = load("[plant.sensors]\nbits = 12\n[sweep]\ndelay_periods = 1001\n").err();
+    assert!(error.is_some_and(|error| error.to_string().contains("1000")), "the most of it");
+}

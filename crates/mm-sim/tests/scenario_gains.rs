@@ -53,12 +53,47 @@ fn what_is_meant_for_one_law_comes_before_what_is_meant_for_all() {
         ("two arguments", &all, &[set, set_for], 5.0),
         ("two arguments, the other way", &all, &[set_for, set], 5.0),
         ("an argument and a file by argument", &all, &[&by_argument, set], 2.0),
+        ("an argument for the law after a file by argument", &all, &[&by_argument, set_for], 5.0),
+        ("a file by argument after an argument for the law", &all, &[set_for, &by_argument], 2.0),
     ] {
         assert_eq!(bandwidth(&folder, text, sets), Some(wanted), "{what}");
     }
     let default =
         TEXT.replace("kind = \"bfsmc\"\n", "").replace("[controller.gains]\nobserver", "# observer");
     assert_eq!(bandwidth(&folder, &format!("{default}{own}"), &[]), Some(3.0), "the law that is the default");
+}
+
+/// Law: a scenario that was read stays what it is whatever becomes of the files that it names; what is named anew is read anew.
+#[test]
+fn files_are_read_once() {
+    let folder = Folder::new("gains-once");
+    let tuned = |value: u32| format!("[bfsmc]\nobserver_bandwidth_1_s = {value}.0\n");
+    let points = |z: f64| format!("x_m,y_m,z_m\n0.4,0,0.4\n0.5,0.1,{z}\n0.6,0,0.4\n");
+    folder.write("tuned.toml", &tuned(2));
+    folder.write("points.csv", &points(0.4));
+    folder.write("robot.toml", "base_mass_kg = 20.0\n");
+    let named =
+        TEXT.replace("kind = \"bfsmc\"\n", "kind = \"bfsmc\"\ngains_file = \"tuned.toml\"\n").replace(
+            "kind = \"square\"",
+            "kind = \"waypoints\"\nfile = \"points.csv\"\nspeed_m_s = 0.5\nacceleration_m_s2 = 1.0\njerk_m_s3 = 5.0\n[robot]\nfile = \"robot.toml\"",
+        );
+    let loaded = load(&folder, &named, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let edit = ["plant.mass_scale=1.1".to_owned()];
+    let edited = || loaded.edited(&edit).unwrap_or_else(|error| panic!("{error}"));
+    let before = edited();
+    folder.write("tuned.toml", &tuned(3));
+    folder.write("points.csv", &points(0.5));
+    folder.write("robot.toml", "base_mass_kg = 30.0\n");
+    let after = edited();
+    assert_eq!(after.digest(), before.digest(), "the texts");
+    assert_eq!(after.file, before.file, "and what they say");
+    assert_ne!(
+        load(&folder, &named, &edit.each_ref().map(String::as_str)).expect("a scenario").digest(),
+        after.digest()
+    );
+    let anew = format!("controller.gains_file={}", folder.path("tuned.toml").display());
+    let anew = loaded.edited(&[anew]).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(anew.file.controller.gains.observer_bandwidth_1_s, Some(3.0), "named anew, read anew");
 }
 
 #[test]

@@ -1,13 +1,12 @@
 //! `mmsim reproduce`: the experiments of the thesis, their figures, and its numbers beside ours.
 
-use std::error::Error as _;
 use std::fmt::Write as _;
-use std::io::IsTerminal as _;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 
+use super::run::with_causes;
 use super::table::short;
-use super::{Exit, ReproduceArgs, complain, interrupt, print};
+use super::{Exit, ReproduceArgs, complain, interrupt, print, progress};
 use crate::reproduce::{Options, Plan, Report, ReproduceError, Row, RunReport, Watch};
 
 /// Runs all experiments and writes their files.
@@ -21,13 +20,13 @@ pub(super) fn reproduce(args: &ReproduceArgs) -> Exit {
         }
     };
     interrupt::install();
-    let progress = Progress(progress_bar(plan.steps(), !(args.quiet || args.json)));
+    let progress = Progress(progress::bar(!(args.quiet || args.json), 0, plan.steps() as u64));
     let outcome = plan.run(&args.out, &progress);
     progress.0.finish_and_clear();
     let report = match outcome {
         Ok(report) => report,
         Err(error) => {
-            complain(&format_args!("error: {}", with_cause(&error)));
+            complain(&format_args!("error: {}", with_causes(&error)));
             if matches!(error, ReproduceError::Interrupted) {
                 complain(&format_args!("the files written so far to {} are whole", args.out.display()));
             }
@@ -55,22 +54,6 @@ impl Watch for Progress {
         self.0.set_message(what.to_owned());
         self.0.inc(1);
     }
-}
-
-fn progress_bar(steps: usize, show: bool) -> ProgressBar {
-    if !(show && std::io::stderr().is_terminal()) {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(steps as u64);
-    if let Ok(style) = ProgressStyle::with_template("[{bar:40}] {pos}/{len} {elapsed} {msg}") {
-        bar.set_style(style.progress_chars("=> "));
-    }
-    bar
-}
-
-fn with_cause(error: &ReproduceError) -> String {
-    let causes = core::iter::successors(error.source(), |&cause| cause.source());
-    causes.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
 }
 
 /// Says what a reader should know of a run, and what that means for the exit code.

@@ -119,6 +119,9 @@ fn fail(error: &dyn std::error::Error) -> Exit {
     Exit::Failed
 }
 
+/// How many failures are shown with their commands.
+const SHOWN: usize = 5;
+
 /// Heading, unit and factor of each quantity.
 const ROWS: [(&str, &str, f64); sweep::QUANTITIES.len()] = [
     ("RMS error", "mm", 1e3),
@@ -133,12 +136,12 @@ const ROWS: [(&str, &str, f64); sweep::QUANTITIES.len()] = [
 fn table(report: &Report) -> String {
     let Report { scenario, controller, samples, seed, .. } = report;
     let mut out = format!(
-        "{scenario} with {controller}: {samples} samples of {} s, seed {seed}\n\n{:22} {:>11} {:>11} {:>11} {:>8}\n",
+        "{scenario} with {controller}: {samples} samples of {} s, seed {seed}\n\n{:22} {:>11} {:>11} {:>21} {:>8}\n",
         short(report.duration_s),
         "",
         "median",
         "95 %",
-        "worst",
+        "worst of the finished",
         "sample"
     );
     let mut worst: BTreeMap<u64, (Vec<&str>, &str)> = BTreeMap::new();
@@ -148,7 +151,7 @@ fn table(report: &Report) -> String {
             .worst
             .as_ref()
             .map_or(("-".to_owned(), "-".to_owned()), |w| (short(w.value * factor), w.sample.to_string()));
-        let _ = writeln!(out, "{name:22} {median:>11} {most:>11} {value:>11} {sample:>8}  {unit}");
+        let _ = writeln!(out, "{name:22} {median:>11} {most:>11} {value:>21} {sample:>8}  {unit}");
         if let Some(w) = &quantity.worst {
             worst.entry(w.sample).or_insert_with(|| (Vec::new(), &w.command)).0.push(name);
         }
@@ -169,15 +172,23 @@ fn table(report: &Report) -> String {
         report.file
     );
     for (sample, (names, command)) in worst {
-        let _ = write!(out, "\nsample {sample}, the worst by {}:\n  {command}\n", names.join(", "));
+        let _ = write!(
+            out,
+            "\nsample {sample}, the worst of the finished by {}:\n  {command}\n",
+            names.join(", ")
+        );
     }
-    for failure in &report.failed {
+    for failure in report.failed.iter().take(SHOWN) {
         let how = match failure.ended {
             Ended::Finished => format!("RMS error {} mm", short(failure.rmse_m * 1e3)),
             Ended::Diverged => format!("diverged at t = {:.3} s", failure.simulated_s),
             Ended::Refused => format!("input refused at t = {:.3} s", failure.simulated_s),
         };
         let _ = write!(out, "\nsample {} failed, {how}:\n  {}\n", failure.sample, failure.command);
+    }
+    let more = report.failed.len().saturating_sub(SHOWN);
+    if more > 0 {
+        let _ = write!(out, "\n{more} more failed, see {}\n", report.file);
     }
     out.trim_end().to_owned()
 }

@@ -1,6 +1,7 @@
 //! `mmsim tune`: gains of one or more laws, out as TOML.
 
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,8 @@ use crate::experiment::Experiment;
 use crate::parallel::Pool;
 use crate::scenario::{self, Loaded};
 use crate::shell;
-use crate::tune::{self, TuneError, Tuned};
+use crate::tune::{self, Outcome, TuneError, Tuned};
+use crate::whole;
 
 /// What `tune` takes.
 #[derive(Debug, Clone, Args)]
@@ -102,50 +104,90 @@ fn run(args: &TuneArgs, spec: &str, laws: &[LawKind]) -> Result<Exit, Exit> {
         prepared.push((*law, prepare(spec, &sets)?));
     }
     let seed = args.seed.unwrap_or(loaded.file.tune.seed);
-    let tuned = search(args, &loaded, &prepared, seed)?;
-    let text = tune::to_toml(&command(args, spec), &loaded, seed, &tuned);
-    let Some(path) = &args.output else { return Ok(print(text.trim_end())) };
-    write(path, &text).map_err(|error| {
-        complain(&format_args!("error: cannot write {}: {error}", path.display()));
-        Exit::Failed
+    if let Some(path) = &args.output {
+        check_place(path)?;
+    }
+    let file = |all: &[Outcome]| tune::to_toml(&command(args, spec), &loaded, seed, all);
+    let (all, exit) = search(args, &prepared, seed, |all| match &args.output {
+        Some(path) => write(path, &file(all)),
+        None => Ok(()),
     })?;
-    Ok(if args.quiet { Exit::Done } else { print(&table(&tuned, path)) })
+    Ok(match &args.output {
+        _ if !all.iter().any(|(_, outcome)| outcome.is_ok()) => exit,
+        None => exit.max(print(file(&all).trim_end())),
+        Some(_) if args.quiet => exit,
+        Some(path) => exit.max(print(&table(&all, path))),
+    })
 }
 
-/// Tunes one law after the other, each on all threads.
+/// Refuses a place where no file can be, before work goes into it.
+fn check_place(path: &Path) -> Result<(), Exit> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let reason = if path.is_dir() || path.file_name().is_none() {
+        "it is a folder"
+    } else if !folder.is_dir() {
+        "there is no such folder"
+    } else {
+        return Ok(());
+    };
+    complain(&format_args!("error: cannot write {}: {reason}", path.display()));
+    Err(Exit::Failed)
+}
+
+/// Tunes one law after the other, each on all threads; `keep` gets what is known after each that was tuned.
+///
+/// What fails, or is asked to stop, takes nothing away from the laws that were tuned before it.
 fn search(
     args: &TuneArgs,
-    loaded: &Loaded,
     prepared: &[(LawKind, (Loaded, Experiment))],
     seed: u64,
-) -> Result<Vec<Tuned>, Exit> {
+    keep: impl Fn(&[Outcome]) -> Result<(), Exit>,
+) -> Result<(Vec<Outcome>, Exit), Exit> {
     interrupt::install();
     let fail = |error: &dyn std::error::Error| {
         complain(&format_args!("error: {}", with_causes(error)));
         Exit::Failed
     };
     let pool = Pool::new(args.jobs.map(NonZeroUsize::get)).map_err(|error| fail(&error))?;
-    let tune = &loaded.file.tune;
-    let runs = u64::from(tune.particles) * u64::from(tune.iterations) * prepared.len() as u64;
-    let bar = progress::bar(!args.quiet, 0, runs);
-    let mut tuned = Vec::new();
+    let runs = |(_, (loaded, _)): &(LawKind, (Loaded, Experiment))| {
+        u64::from(loaded.file.tune.particles) * u64::from(loaded.file.tune.iterations)
+    };
+    let bar = progress::bar(!args.quiet, 0, prepared.iter().map(runs).sum());
+    let (mut all, mut exit) = (Vec::new(), Exit::Done);
     for (law, (loaded, experiment)) in prepared {
         bar.set_message(law.name());
-        let best =
+        let outcome =
             tune::tune((loaded, experiment), (*law, seed), &pool, &interrupt::asked, |more| bar.inc(more));
-        match best {
-            Ok(best) => tuned.push(best),
-            Err(error) => {
-                bar.finish_and_clear();
-                return Err(match error {
-                    TuneError::NothingToTune { .. } => fail(&error).max(Exit::Usage),
-                    TuneError::NoneFinished { .. } | TuneError::Stopped => fail(&error),
-                });
-            }
+        exit = exit.max(bar.suspend(|| match &outcome {
+            Ok(tuned) => warn_of(tuned),
+            Err(error @ TuneError::NothingToTune { .. }) => fail(error).max(Exit::Usage),
+            Err(error @ (TuneError::NoneFinished { .. } | TuneError::Stopped)) => fail(error),
+        }));
+        let stops = matches!(outcome, Err(TuneError::Stopped));
+        all.push((*law, outcome));
+        if all.iter().any(|(_, outcome)| outcome.is_ok()) {
+            keep(&all)?;
+        }
+        if stops {
+            break;
         }
     }
     bar.finish_and_clear();
-    Ok(tuned)
+    Ok((all, exit))
+}
+
+/// Says where the search found nothing as good as what is there.
+fn warn_of(tuned: &Tuned) -> Exit {
+    let Tuned { law, trial, given_cost, .. } = tuned;
+    if trial.cost > *given_cost {
+        complain(&format_args!(
+            "warning: {}: the tuned gains cost {}, those that the scenario gives only {}",
+            law.name(),
+            short(trial.cost),
+            short(*given_cost)
+        ));
+    }
+    Exit::Done
 }
 
 /// The command line that tunes the same again.
@@ -158,32 +200,37 @@ fn command(args: &TuneArgs, spec: &str) -> String {
     shell::command(words)
 }
 
-/// Writes a file as a whole or not at all: beside it, then in its place.
-fn write(path: &Path, text: &str) -> std::io::Result<()> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    let written = std::fs::write(&beside, text).and_then(|()| std::fs::rename(&beside, path));
-    if written.is_err() {
-        let _ = std::fs::remove_file(&beside);
-    }
-    written
+/// Writes the gains.
+fn write(path: &Path, text: &str) -> Result<(), Exit> {
+    whole::write(path, |out| out.write_all(text.as_bytes())).map_err(|error| {
+        complain(&format_args!("error: cannot write {}: {error}", path.display()));
+        Exit::Failed
+    })
 }
 
 /// What was gained.
-fn table(all: &[Tuned], path: &Path) -> String {
+fn table(all: &[Outcome], path: &Path) -> String {
     let mut out = format!(
-        "{:20} {:>11} {:>11} {:>11} {:>11}\n{:20} {:>11} {:>11} {:>11} {:>11}\n",
-        "", "cost", "by default", "ITAE sum", "variation", "", "", "", "m s^2", "N m/s"
+        "{:20} {:>11} {:>11} {:>11} {:>11} {:>11}\n{:20} {:>11} {:>11} {:>11} {:>11} {:>11}\n",
+        "", "cost", "by default", "as given", "ITAE sum", "variation", "", "", "", "", "m s^2", "N m/s"
     );
-    for tuned in all {
+    for (law, outcome) in all {
+        let Ok(tuned) = outcome else {
+            let _ = writeln!(out, "{:20} {:>11}", law.name(), "-");
+            continue;
+        };
         let metrics = tuned.trial.result.as_ref().map(|(metrics, _)| metrics);
         let [itae, variation] = [
             metrics.map_or(f64::NAN, |m| m.itae_m_s2.sum),
             metrics.map_or(f64::NAN, |m| m.torque_tv_n_m_per_s.sum),
         ]
         .map(short);
-        let [cost, default] = [tuned.trial.cost, tuned.default_cost].map(short);
-        let _ = writeln!(out, "{:20} {cost:>11} {default:>11} {itae:>11} {variation:>11}", tuned.law.name());
+        let [cost, default, given] = [tuned.trial.cost, tuned.default_cost, tuned.given_cost].map(short);
+        let _ = writeln!(
+            out,
+            "{:20} {cost:>11} {default:>11} {given:>11} {itae:>11} {variation:>11}",
+            law.name()
+        );
     }
     let _ = write!(out, "\ngains in {}", path.display());
     out

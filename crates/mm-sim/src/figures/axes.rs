@@ -31,7 +31,7 @@ pub(super) fn ticks((low, high): (f64, f64), count: f64) -> Vec<(f64, String)> {
         return Vec::new();
     }
     let rough = span / count;
-    let power = rough.log10().floor();
+    let power = libm::log10(rough).floor();
     let unit = power_of_ten(power);
     let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|factor| factor * unit >= rough).unwrap_or(10.0);
     let step = factor * unit;

@@ -37,7 +37,7 @@ impl Scale {
 }
 
 fn logarithm(value: f64, floor: f64) -> f64 {
-    f64::max(value, floor).log10()
+    libm::log10(f64::max(value, floor))
 }
 
 /// Draws a panel into its part of the canvas.

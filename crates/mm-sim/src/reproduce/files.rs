@@ -1,17 +1,18 @@
-//! Files that are there whole or not at all, and CSV.
+//! Files of a reproduction, and CSV.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use super::work::ReproduceError;
+use crate::whole;
 
 /// Writes a file beside its place and moves it there when it is complete.
 pub(super) fn write(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), ReproduceError> {
-    whole(path, fill).map_err(|source| ReproduceError::File { path: path.to_owned(), source })
+    whole::write(path, fill).map_err(|source| ReproduceError::File { path: path.to_owned(), source })
 }
 
 /// Writes a table.
@@ -22,22 +23,6 @@ pub(super) fn write_csv(
 ) -> Result<(), ReproduceError> {
     let header = header.iter().map(|&name| name.to_owned()).collect();
     write(path, |out| csv(out, std::iter::once(header).chain(lines)))
-}
-
-fn whole(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let beside = path.with_file_name(format!(".{name}.part"));
-    let written = File::create(&beside).and_then(|file| {
-        let mut out = BufWriter::new(file);
-        fill(&mut out)?;
-        out.flush()
-    });
-    let moved = written.and_then(|()| std::fs::rename(&beside, path));
-    if moved.is_err() {
-        // What is left of it is of no use; that it cannot be removed adds nothing to the error.
-        let _ = std::fs::remove_file(&beside);
-    }
-    moved
 }
 
 /// Writes lines of CSV.

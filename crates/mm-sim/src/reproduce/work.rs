@@ -2,12 +2,11 @@
 
 use std::convert::Infallible;
 use std::io;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use nalgebra::Vector3;
-use rayon::ThreadPoolBuilder;
-use rayon::prelude::*;
 
 use super::catalogue::{EXPERIMENTS, Experiment, FIGURES, Figure};
 use super::draw::draw;
@@ -16,6 +15,7 @@ use super::measure::Done;
 use super::report::{FIGURES_HEADER, FigureFile, Report, RunReport, SCHEMA, TABLE_HEADER, table};
 use crate::experiment::{Experiment as Built, controller_name};
 use crate::figures::{FigureError, Recording, Run as Shown};
+use crate::parallel::{Pool, PoolError};
 use crate::scenario::{self, Loaded, ScenarioError};
 use crate::simulation::{Ending, Recorder, RunResult, Sample};
 use crate::summary;
@@ -62,8 +62,8 @@ pub enum ReproduceError {
         source: FigureError,
     },
     /// The threads cannot be started.
-    #[error("cannot start the threads")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
+    #[error(transparent)]
+    Threads(#[from] PoolError),
     /// It was asked to end; the files written so far are whole.
     #[error("interrupted")]
     Interrupted,
@@ -127,19 +127,10 @@ impl Plan {
             std::fs::create_dir_all(&folder)
                 .map_err(|source| ReproduceError::File { path: folder.clone(), source })?;
         }
-        let pool = ThreadPoolBuilder::new().num_threads(self.jobs).build()?;
-        let (ended, figures) = pool.install(|| {
-            let ended: Result<Vec<_>, _> =
-                self.runs.par_iter().with_max_len(1).map(|run| run.perform(out, watch)).collect();
-            let ended = ended?;
-            let figures: Vec<&Figure> = self.figures().collect();
-            let figures: Result<Vec<_>, _> = figures
-                .par_iter()
-                .with_max_len(1)
-                .map(|figure| picture(figure, &ended, out, watch))
-                .collect();
-            Ok::<_, ReproduceError>((ended, figures?))
-        })?;
+        let pool = Pool::new((self.jobs > 0).then_some(self.jobs))?;
+        let ended = all(&pool, &self.runs, |run| run.perform(out, watch))?;
+        let figures: Vec<&Figure> = self.figures().collect();
+        let figures = all(&pool, &figures, |figure| picture(figure, &ended, out, watch))?;
         let find = |experiment: &str, law: &str| {
             let is_it =
                 |run: &&Ended<'_>| run.planned.experiment.name == experiment && run.planned.controller == law;
@@ -168,6 +159,32 @@ impl Plan {
     fn has(&self, experiment: &str) -> bool {
         self.runs.iter().any(|run| run.experiment.name == experiment)
     }
+}
+
+/// Does the work of all items, in parallel, or up to the first that fails.
+fn all<'a, I: Sync, T: Send>(
+    pool: &Pool,
+    items: &'a [I],
+    work: impl Fn(&'a I) -> Result<T, ReproduceError> + Sync,
+) -> Result<Vec<T>, ReproduceError> {
+    let mut done = Ok(Vec::with_capacity(items.len()));
+    let at = |number: u64| usize::try_from(number).ok().and_then(|index| items.get(index));
+    pool.in_order(
+        0..items.len() as u64,
+        |number| at(number).map(&work),
+        |_, result| match (result, &mut done) {
+            (Some(Err(error)), _) => {
+                done = Err(error);
+                ControlFlow::Break(())
+            }
+            (Some(Ok(one)), Ok(done)) => {
+                done.push(one);
+                ControlFlow::Continue(())
+            }
+            (None, _) | (_, Err(_)) => ControlFlow::Continue(()),
+        },
+    );
+    done
 }
 
 impl Planned {

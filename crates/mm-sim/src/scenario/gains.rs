@@ -1,46 +1,48 @@
 //! The gains of the law that runs: those for all laws, those of a file, those for this law.
 
-use std::path::Path;
-
 use super::diagnostic::{Problem, Source};
 use super::tree::{Entry, Node, Table, Value};
 use super::types::ControllerKind;
-use super::{SET_NAME, ScenarioError, check, included, schema};
+use super::{Files, SET_NAME, ScenarioError, check, included, schema};
 
 /// Lays over `controller.gains` what `controller.gains_file` and `controller.gains_for` say of the law that runs.
 ///
 /// What is meant for one law comes before what is meant for all, what the scenario says before what a file says; but what an
-/// argument gives, be it a gain or the file, comes before all that it does not give. Every value keeps its place.
+/// argument gives, be it a gain or the file, comes before all that it does not give. Of arguments that both mean one law, a gain
+/// and a file, the later one counts. Every value keeps its place.
 pub(super) fn resolve(
     root: &mut Node,
     sources: &mut Vec<Source>,
-    folder: &Path,
+    files: &Files<'_>,
     problems: &mut Vec<Problem>,
 ) -> Result<(), ScenarioError> {
     let law = law(root);
     let key = "controller.gains_file";
-    let file = included(root, (key, "a file of gains"), sources, folder, problems)?;
+    let file = included(root, (key, "a file of gains"), sources, files, problems)?;
     let from_argument = |node: &Node| sources.get(node.place.source).is_some_and(|s| s.name == SET_NAME);
     let mut layers = Vec::new();
     if let Some(file) = file {
         problems.extend(check::check(sources, &schema::GAINS, &file));
-        let is_chosen = root.find(key).is_some_and(from_argument);
-        layers.extend(file.find(&law).and_then(Node::as_table).map(|table| (table.clone(), is_chosen)));
+        let chosen = root.find(key).filter(|node| from_argument(node)).map(|node| node.place.source);
+        layers.extend(file.find(&law).and_then(Node::as_table).map(|table| (table.clone(), chosen)));
     }
     let own = root.find(&format!("controller.gains_for.{law}")).and_then(Node::as_table);
-    layers.extend(own.map(|table| (table.clone(), false)));
+    layers.extend(own.map(|table| (table.clone(), None)));
     if layers.is_empty() {
         return Ok(());
     }
     let below = root.find("controller.gains").and_then(Node::as_table).cloned().unwrap_or_default();
-    let mut ranked: Vec<(String, Entry, bool)> = Vec::new();
-    for (table, is_chosen) in std::iter::once((below, false)).chain(layers) {
+    // Beside each value the argument that gave it; one for all laws is put before any for this law.
+    let mut ranked: Vec<(String, Entry, Option<usize>)> = Vec::new();
+    for (layer, (table, chosen)) in std::iter::once((below, None)).chain(layers).enumerate() {
         for (name, entry) in table {
-            let is_argument = is_chosen || from_argument(&entry.node);
+            let own = from_argument(&entry.node).then_some(entry.node.place.source);
+            let argument = chosen.or(own).map(|source| if layer == 0 { 0 } else { source });
             match ranked.iter_mut().find(|(known, ..)| *known == name) {
-                Some((_, _, stays)) if *stays && !is_argument => {}
-                Some(known) => *known = (name, entry, is_argument),
-                None => ranked.push((name, entry, is_argument)),
+                // None is less than any argument.
+                Some((.., given)) if *given > argument => {}
+                Some(known) => *known = (name, entry, argument),
+                None => ranked.push((name, entry, argument)),
             }
         }
     }

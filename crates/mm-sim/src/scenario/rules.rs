@@ -23,6 +23,7 @@ pub(super) fn check(root: &Node) -> Vec<Problem> {
         one_disturbance(disturbance, index, &mut problems);
     }
     range(root, "tune.bounds", &mut problems);
+    drawn_delay(root, &mut problems);
     if let Some(expect) = root.find("expect") {
         bounds(expect, "expect", &mut problems);
     }
@@ -234,6 +235,24 @@ fn hardware(root: &Node, problems: &mut Vec<Problem>) {
                 );
             }
         }
+    }
+}
+
+/// A delay that is drawn may be none, and sensors without any key need no estimator: samples would be of two kinds.
+fn drawn_delay(root: &Node, problems: &mut Vec<Problem>) {
+    let key = "sweep.delay_periods";
+    let has_sensors = root
+        .find("plant.sensors")
+        .and_then(Node::as_table)
+        .is_some_and(|keys| keys.keys().any(|name| name != "delay_periods"));
+    let estimates = match root.find("controller.estimator.kind") {
+        Some(kind) => kind.as_str() != Some("none"),
+        None => has_sensors,
+    };
+    if positive(root, key).is_some() && !estimates {
+        problems.push(Problem::new(key, "a delay of what no sensor reads", root.place_of(key)).expected(
+            "a scenario with another key of `[plant.sensors]`, or with `controller.estimator.kind`",
+        ));
     }
 }
 

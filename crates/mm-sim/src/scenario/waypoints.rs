@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::diagnostic::{Problem, ScenarioError, Source};
 use super::tree::{Entry, Node, Place, Value};
-use super::{check, linked, parse, schema};
+use super::{Files, check, linked, parse, schema};
 
 const KEY: &str = "trajectory.file";
 
@@ -18,7 +18,7 @@ const MAX_QUOTE: usize = 40;
 pub(super) fn file(
     root: &mut Node,
     sources: &mut Vec<Source>,
-    folder: &Path,
+    files: &Files<'_>,
     problems: &mut Vec<Problem>,
 ) -> Result<(), ScenarioError> {
     let Some(key) = root.find(KEY) else { return Ok(()) };
@@ -38,7 +38,7 @@ pub(super) fn file(
         }
     };
     let source = sources.len();
-    match linked(key, name, folder, format) {
+    match linked(key, name, files, format) {
         Ok(linked) => sources.push(linked),
         Err(message) => {
             problems.push(Problem::new(KEY, message, key.place.clone()).expected("a file of points"));

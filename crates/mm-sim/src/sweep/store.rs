@@ -6,12 +6,15 @@ use std::path::{Path, PathBuf};
 
 use xxhash_rust::xxh3::Xxh3;
 
-use super::{Ended, QUANTITIES, Row, edits};
+use super::{Ended, QUANTITIES, Row, edits, sample_seed};
 use crate::VERSION;
 use crate::scenario::Loaded;
 
 /// Name and version of the file's format.
 const FORMAT: &str = "mmsim.sweep-samples/1";
+
+/// Digits of the digest of a trajectory.
+const DIGEST_LENGTH: usize = 32;
 
 /// What is wrong with a file of samples.
 #[derive(Debug, thiserror::Error)]
@@ -47,8 +50,8 @@ pub enum StoreError {
         /// What it should be.
         wanted: String,
     },
-    /// A line is no sample.
-    #[error("{}:{line}: not sample {sample} of a sweep; --fresh starts over", path.display())]
+    /// A line is no sample, or not the one that belongs there.
+    #[error("{}:{line}: not sample {sample} of this sweep; --fresh starts over", path.display())]
     Line {
         /// The file.
         path: PathBuf,
@@ -106,7 +109,7 @@ impl Store {
             check_first_line(path, &text, &first)?;
             let whole = text.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
             text.truncate(whole);
-            rows = parse(path, &text)?;
+            rows = parse(path, &text, seed)?;
         }
         file.set_len(text.len() as u64)
             .and_then(|()| file.seek(io::SeekFrom::End(0)))
@@ -165,15 +168,24 @@ fn check_first_line(path: &Path, text: &[u8], wanted: &str) -> Result<(), StoreE
 }
 
 /// The samples of a file of whole lines.
-fn parse(path: &Path, text: &[u8]) -> Result<Vec<Row>, StoreError> {
+fn parse(path: &Path, text: &[u8], seed: u64) -> Result<Vec<Row>, StoreError> {
     let text = String::from_utf8_lossy(text);
     let columns_and_header = 2;
     let row = |(sample, text): (usize, &str)| {
         let bad =
             || StoreError::Line { path: path.to_path_buf(), line: sample + columns_and_header + 1, sample };
-        read_line(text).filter(|row| row.sample == sample as u64).ok_or_else(bad)
+        read_line(text).filter(|row| belongs(row, sample as u64, seed)).ok_or_else(bad)
     };
     text.lines().skip(columns_and_header).enumerate().map(row).collect()
+}
+
+/// Whether a row is a sample of a sweep's seed; one that ran away at once may have no numbers, any other has all.
+fn belongs(row: &Row, sample: u64, seed: u64) -> bool {
+    let is_whole = row.simulated_s >= 0.0
+        && (row.ended != Ended::Finished || row.values.iter().all(|value| !value.is_nan()))
+        && row.digest.len() == DIGEST_LENGTH
+        && row.digest.bytes().all(|digit| digit.is_ascii_hexdigit());
+    row.sample == sample && row.seed == sample_seed(seed, sample) && is_whole
 }
 
 fn line(row: &Row) -> String {

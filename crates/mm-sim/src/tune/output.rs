@@ -2,15 +2,15 @@
 
 use std::fmt::Write as _;
 
-use super::{Tuned, tunables};
+use super::{Outcome, Tuned, tunables};
 use crate::VERSION;
 use crate::scenario::Loaded;
 
-/// The file of tuned gains: how it was made, then a table for each law with what it costs.
+/// The file of tuned gains: how it was made, then a table for each law with what it costs, or why there is none.
 ///
 /// `command` is the command line that made it, `loaded` the scenario before a law was chosen.
 #[must_use]
-pub fn to_toml(command: &str, loaded: &Loaded, seed: u64, all: &[Tuned]) -> String {
+pub fn to_toml(command: &str, loaded: &Loaded, seed: u64, all: &[Outcome]) -> String {
     let tune = &loaded.file.tune;
     // A line break in a file name must not end the comment.
     let command: String = command.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
@@ -38,15 +38,24 @@ pub fn to_toml(command: &str, loaded: &Loaded, seed: u64, all: &[Tuned]) -> Stri
             versions.join("; ").escape_debug()
         );
     }
-    for tuned in all {
-        law(&mut out, tuned);
+    for (kind, outcome) in all {
+        match outcome {
+            Ok(tuned) => law(&mut out, tuned),
+            Err(error) => {
+                let _ = writeln!(out, "\n# No gains for {}: {error}.", kind.name());
+            }
+        }
     }
     out
 }
 
 /// The table of one law.
 fn law(out: &mut String, tuned: &Tuned) {
-    let _ = writeln!(out, "\n# Cost {}, with the default gains {}.", tuned.trial.cost, tuned.default_cost);
+    let _ = writeln!(
+        out,
+        "\n# Cost {}, with the default gains {}, with those as given {}.",
+        tuned.trial.cost, tuned.default_cost, tuned.given_cost
+    );
     if let Some((m, digest)) = &tuned.trial.result {
         let _ = write!(
             out,
@@ -67,6 +76,12 @@ fn law(out: &mut String, tuned: &Tuned) {
     let _ = writeln!(out, "# Factors on the default gains: {}.", factors.collect::<Vec<_>>().join(", "));
     let _ = writeln!(out, "[{}]", tuned.law.name());
     for (key, gain) in &tuned.gains {
+        let _ = writeln!(out, "{key} = {gain}");
+    }
+    if !tuned.kept.is_empty() {
+        let _ = writeln!(out, "# Not tuned, as given by the scenario's own file of gains:");
+    }
+    for (key, gain) in &tuned.kept {
         let _ = writeln!(out, "{key} = {gain}");
     }
 }

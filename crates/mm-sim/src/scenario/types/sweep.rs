@@ -19,22 +19,24 @@ pub struct Sweep {
     /// The distance of each centre of mass from its axle or joint likewise.
     #[schemars(with = "Share")]
     pub com: f64,
-    /// Viscous friction of both wheels, from 0 to this, N m s/rad.
+    /// Viscous friction of both wheels, from 0 to this, N m s/rad, in place of the scenario's own.
     #[schemars(with = "NonNegative")]
     pub wheel_viscous_n_m_s: f64,
-    /// Coulomb friction of both wheels, from 0 to this.
+    /// Coulomb friction of both wheels, from 0 to this, in place of the scenario's own.
     #[schemars(with = "NonNegative")]
     pub wheel_coulomb_n_m: f64,
-    /// Viscous friction of each joint, from 0 to this, N m s/rad.
+    /// Viscous friction of each joint, from 0 to this, N m s/rad, in place of the scenario's own.
     #[schemars(with = "NonNegative")]
     pub joint_viscous_n_m_s: f64,
-    /// Coulomb friction of each joint, from 0 to this.
+    /// Coulomb friction of each joint, from 0 to this, in place of the scenario's own.
     #[schemars(with = "NonNegative")]
     pub joint_coulomb_n_m: f64,
     /// Each joint gets a torque of random shape (step, pulse, sine or noise), times and amplitude, the amplitude up to this.
     #[schemars(with = "NonNegative")]
     pub joint_disturbance_n_m: f64,
-    /// The measurements are late by 0 to this many control periods: `plant.sensors.delay_periods`.
+    /// The measurements are late by 0 to this many control periods, in place of the scenario's own `plant.sensors.delay_periods`; for
+    /// a scenario with an estimator, since without one a delay would bring one in some samples.
+    #[schemars(range(max = 1000))]
     pub delay_periods: u32,
     /// The tip starts in a ball of this radius around where it would start.
     #[schemars(with = "NonNegative")]
