@@ -196,6 +196,58 @@ fn counts_are_those_of_the_ticks() {
 }
 
 #[test]
+fn a_cut_torque_is_lost_authority() {
+    // The wheels need more than 0.1 N m; with their ordinary limit nothing is cut and the gains are enough.
+    let weak = ["simulation.duration_s=5", "robot.wheel_torque_limit_n_m=0.1"];
+    let cut = mm_tests::run(&build(&load("square", &weak)));
+    assert!(cut.metrics.saturated_fraction > 0.0, "the limit cuts");
+    assert_eq!(cut.metrics.reaching_condition_met, Some(false), "and what it cuts is missed");
+    // |gap| + |f_ext + B(torque - commanded)| + eta without an external force: at least what was cut off.
+    let experiment =
+        fine("square", (5.0, 1e-3), &["controller.kind=bsmc", "robot.wheel_torque_limit_n_m=0.1"]);
+    let robot = *experiment.plant().robot();
+    let (seen, result) = watched(&experiment);
+    let mut most: f64 = 0.0;
+    for s in seen.iter().filter(|s| s.output.status.saturated) {
+        let (given, asked) = (&s.output.torque, &s.output.signals.commanded);
+        let lost = robot.force_of(given).minus(robot.force_of(asked));
+        for (needed, lost) in s.required.channels().zip(lost.channels()) {
+            assert!(needed >= lost.abs() - 1e-12, "t = {}: {needed} does not cover the {lost} cut off", s.t);
+            most = Real::max(most, lost.abs());
+        }
+    }
+    measured("square at 0.1 N m: most that the limit cut off", most);
+    assert!(most > 0.0, "something was cut");
+    let Some(monitors) = result.monitors else { panic!("a closed loop has monitors") };
+    let authority = experiment_authority(&experiment);
+    let fails = |s: &Seen| {
+        s.required.channels().zip(authority.channels()).any(|(needed, k)| needed > k * (1.0 + 1e-9) + 1e-9)
+    };
+    assert_eq!(monitors.reaching_failed_fraction, Some(lasting(&seen, fails).fraction), "share of failures");
+    let any = lasting(&seen, |s| s.output.status.saturated);
+    assert_eq!(monitors.torque_limited, any, "a torque was limited");
+}
+
+fn experiment_authority(experiment: &Experiment) -> Force<f64, 3> {
+    let Experiment::Closed(simulation) = experiment else { panic!("a closed loop") };
+    simulation.stack.law().authority().unwrap()
+}
+
+#[test]
+fn a_law_without_a_switching_gain_has_no_reaching_bound() {
+    for law in ["ctc", "pid", "lqr", "super-twisting", "backstepping-adaptive"] {
+        let kind = format!("controller.kind={law}");
+        let (seen, result) = watched(&fine("square", (0.2, 1e-3), &[&kind]));
+        assert!(seen.iter().all(|s| s.required == Force::zero()), "{law}: no bound in a sample");
+        let Some(monitors) = result.monitors else { panic!("a closed loop has monitors") };
+        assert_eq!(monitors.reaching_bound_max, [None; 5], "{law}: none in the report");
+        assert_eq!(monitors.reaching_failed_fraction, None, "{law}: and no share");
+        assert_eq!(result.metrics.reaching_condition_met, None, "{law}: nor a verdict");
+        assert!(monitors.lyapunov_max_j.is_some(), "{law}: V is defined");
+    }
+}
+
+#[test]
 fn warnings_tell_what_a_user_should_know() {
     let result = mm_tests::run(&build(&load_text("below.toml", BELOW, &[])));
     let Some(monitors) = result.monitors else { panic!("a closed loop has monitors") };

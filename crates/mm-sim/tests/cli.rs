@@ -54,6 +54,7 @@ const KEYS: &str = "schema scenario controller duration_s plant_step_s control_p
     metrics.effort_n2_m2_s metrics.energy_j metrics.saturated_fraction metrics.max_speed_m_s \
     metrics.min_manipulability metrics.sliding_band metrics.joint_limit_crossings metrics.reaching_condition_met \
     monitors.lyapunov_max_j monitors.lyapunov_rate_max_w monitors.reaching_bound_max monitors.reaching_met_fraction \
+    monitors.reaching_failed_fraction monitors.torque_limited.fraction monitors.torque_limited.first_s \
     monitors.torque_limited_fraction.right monitors.torque_limited_fraction.left \
     monitors.torque_limited_fraction.joints monitors.near_singular.fraction monitors.near_singular.first_s \
     monitors.speed_limited.fraction monitors.speed_limited.first_s monitors.joint_limited.fraction \
