@@ -24,6 +24,10 @@ pub struct Summary {
     pub control_period_s: f64,
     /// Seed of everything random.
     pub seed: u64,
+    /// How it ended: finished, interrupted, diverged or refused.
+    pub ended: &'static str,
+    /// Time simulated, s: less than the duration of a run that ended early.
+    pub simulated_s: f64,
     /// Metrics over the ticks simulated.
     pub metrics: Metrics,
     /// What the monitors saw; none for an imposed motion.
@@ -97,6 +101,17 @@ pub fn describe(ending: &Ending) -> Option<String> {
         Ending::Refused { t, error } => {
             Some(format!("the controller refused its input at t = {t:.3} s: {error}"))
         }
+/// How a run ended, in a word.
+#[must_use]
+pub const fn ended(ending: &Ending) -> &'static str {
+    match ending {
+        Ending::Finished => "finished",
+        Ending::Stopped { .. } => "interrupted",
+        Ending::Diverged { .. } => "diverged",
+        Ending::Refused { .. } => "refused",
+    }
+}
+
     }
 }
 

@@ -124,6 +124,8 @@ pub(super) fn execute(
         control_period_s: file.simulation.control_period_s,
         seed: file.simulation.seed,
         metrics: result.metrics,
+        ended: summary::ended(&result.ending),
+        simulated_s: simulated,
         monitors: result.monitors,
         digest: result.digest,
         real_time_factor: simulated / wall_s,
