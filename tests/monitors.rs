@@ -221,18 +221,14 @@ fn a_cut_torque_is_lost_authority() {
     measured("square at 0.1 N m: most that the limit cut off", most);
     assert!(most > 0.0, "something was cut");
     let Some(monitors) = result.monitors else { panic!("a closed loop has monitors") };
-    let authority = experiment_authority(&experiment);
+    let Experiment::Closed(simulation) = &experiment else { panic!("a closed loop") };
+    let authority = simulation.stack.law().authority().unwrap();
     let fails = |s: &Seen| {
         s.required.channels().zip(authority.channels()).any(|(needed, k)| needed > k * (1.0 + 1e-9) + 1e-9)
     };
     assert_eq!(monitors.reaching_failed_fraction, Some(lasting(&seen, fails).fraction), "share of failures");
     let any = lasting(&seen, |s| s.output.status.saturated);
     assert_eq!(monitors.torque_limited, any, "a torque was limited");
-}
-
-fn experiment_authority(experiment: &Experiment) -> Force<f64, 3> {
-    let Experiment::Closed(simulation) = experiment else { panic!("a closed loop") };
-    simulation.stack.law().authority().unwrap()
 }
 
 #[test]
