@@ -196,6 +196,56 @@ fn counts_are_those_of_the_ticks() {
 }
 
 #[test]
+fn a_cut_torque_is_lost_authority() {
+    // The wheels need more than 0.1 N m; with their ordinary limit nothing is cut and the gains are enough.
+    let weak = ["simulation.duration_s=5", "robot.wheel_torque_limit_n_m=0.1"];
+    let cut = mm_tests::run(&build(&load("square", &weak)));
+    let whole = mm_tests::run(&build(&load("square", &weak[..1])));
+    assert_eq!(whole.metrics.reaching_condition_met, Some(true), "with the ordinary limit");
+    assert!(cut.metrics.saturated_fraction > 0.0, "the limit cuts");
+    assert_eq!(cut.metrics.reaching_condition_met, Some(false), "and what it cuts is missed");
+    // |gap| + |f_ext + B(torque - commanded)| + eta without an external force: at least what was cut off.
+    let experiment =
+        fine("square", (5.0, 1e-3), &["controller.kind=bsmc", "robot.wheel_torque_limit_n_m=0.1"]);
+    let robot = *experiment.plant().robot();
+    let (seen, result) = watched(&experiment);
+    let mut most: f64 = 0.0;
+    for s in seen.iter().filter(|s| s.output.status.saturated) {
+        let (given, asked) = (&s.output.torque, &s.output.signals.commanded);
+        let lost = robot.force_of(given).minus(robot.force_of(asked));
+        for (needed, lost) in s.required.channels().zip(lost.channels()) {
+            assert!(needed >= lost.abs() - 1e-12, "t = {}: {needed} does not cover the {lost} cut off", s.t);
+            most = Real::max(most, lost.abs());
+        }
+    }
+    measured("square at 0.1 N m: most that the limit cut off", most);
+    assert!(most > 0.0, "something was cut");
+    let Some(monitors) = result.monitors else { panic!("a closed loop has monitors") };
+    let Experiment::Closed(simulation) = &experiment else { panic!("a closed loop") };
+    let authority = simulation.stack.law().authority().unwrap();
+    let fails = |s: &Seen| {
+        s.required.channels().zip(authority.channels()).any(|(needed, k)| needed > k * (1.0 + 1e-9) + 1e-9)
+    };
+    assert_eq!(monitors.reaching_failed_fraction, Some(lasting(&seen, fails).fraction), "share of failures");
+    let any = lasting(&seen, |s| s.output.status.saturated);
+    assert_eq!(monitors.torque_limited, any, "a torque was limited");
+}
+
+#[test]
+fn a_law_without_a_switching_gain_has_no_reaching_bound() {
+    for law in ["ctc", "pid", "lqr", "super-twisting", "backstepping-adaptive"] {
+        let kind = format!("controller.kind={law}");
+        let (seen, result) = watched(&fine("square", (0.2, 1e-3), &[&kind]));
+        assert!(seen.iter().all(|s| s.required == Force::zero()), "{law}: no bound in a sample");
+        let Some(monitors) = result.monitors else { panic!("a closed loop has monitors") };
+        assert_eq!(monitors.reaching_bound_max, [None; 5], "{law}: none in the report");
+        assert_eq!(monitors.reaching_failed_fraction, None, "{law}: and no share");
+        assert_eq!(result.metrics.reaching_condition_met, None, "{law}: nor a verdict");
+        assert!(monitors.lyapunov_max_j.is_some(), "{law}: V is defined");
+    }
+}
+
+#[test]
 fn warnings_tell_what_a_user_should_know() {
     let result = mm_tests::run(&build(&load_text("below.toml", BELOW, &[])));
     let Some(monitors) = result.monitors else { panic!("a closed loop has monitors") };
@@ -216,6 +266,96 @@ fn warnings_tell_what_a_user_should_know() {
     let Some(monitors) = quiet.monitors else { panic!("a closed loop has monitors") };
     assert_eq!(monitors.speed_limited, Lasting::default(), "never limited");
     assert!(mm_tests::run(&build(&load("verify-circle", &[]))).monitors.is_none(), "no loop, no monitors");
+}
+
+#[test]
+fn warnings_tell_of_limited_torques_and_of_too_small_gains() {
+    let weak = ["simulation.duration_s=5", "robot.wheel_torque_limit_n_m=0.1"];
+    let result = mm_tests::run(&build(&load("square", &weak)));
+    let Some(monitors) = result.monitors else { panic!("a closed loop has monitors") };
+    let Lasting { fraction, first_s } = monitors.torque_limited;
+    assert_eq!(fraction.to_bits(), result.metrics.saturated_fraction.to_bits(), "the same count");
+    let failed = monitors.reaching_failed_fraction.unwrap_or(f64::NAN);
+    assert!(fraction > 0.01 && failed > 0.05, "worth saying: {fraction}, {failed}");
+    let (limited, first) = (100.0 * fraction, first_s.unwrap_or(f64::NAN));
+    let limited = format!("a torque was limited in {limited:.1} % of the run, first at t = {first:.3} s");
+    let failing = format!("the reaching condition failed at {:.1} % of the samples", 100.0 * failed);
+    let warnings = summary::warnings(&result, 2.0);
+    for expected in [&limited, &failing] {
+        assert!(warnings.contains(expected), "{expected:?} is not among {warnings:?}");
+    }
+    // A little of either is no news.
+    let mut little = result.clone();
+    if let Some(monitors) = &mut little.monitors {
+        monitors.torque_limited.fraction = 0.01;
+        monitors.reaching_failed_fraction = Some(0.05);
+    }
+    let warnings = summary::warnings(&little, 2.0);
+    for said in [&limited[..20], &failing[..29]] {
+        assert!(!warnings.iter().any(|warning| warning.starts_with(said)), "{said:?} is among {warnings:?}");
+    }
+}
+
+/// Up through the edge of reach, 0.3 um below 1.5 m, at 0.1 m/s from 1.3 m: beyond it after 2 s.
+const ABOVE: &str = r#"
+name = "above"
+[simulation]
+duration_s = 4.0
+[trajectory]
+kind = "line"
+from_m = [0.3, 0.0, 1.3]
+velocity_m_s = [0.0, 0.0, 0.1]
+allow_unreachable = true
+"#;
+
+#[test]
+fn warnings_tell_of_a_reference_beyond_reach() {
+    let experiment = build(&load_text("above.toml", ABOVE, &[]));
+    let (_, high) = experiment.plant().robot().tip_height_range();
+    assert!((1.499_999..1.5).contains(&high), "the edge is at {high} m");
+    // 4000 ticks of 1 ms, each looked at; that at 2 s is beyond the edge, the last is at 3.999 s.
+    let expected = "the reference was beyond the arm's reach in height for 50.0 % of the run, \
+                    first at t = 2.000 s, last at t = 3.999 s";
+    assert_eq!(experiment.reference_warnings(4.0), [expected], "a run to its end");
+    assert!(experiment.reference_warnings(1.5).is_empty(), "a run that ended before");
+    assert!(build(&load("square", &[])).reference_warnings(98.0).is_empty(), "an ordinary reference");
+    // At the edge the message has the digits that tell the two apart.
+    let edge = "name = \"edge\"\n[simulation]\nduration_s = 1.0\n[trajectory]\nkind = \"hold\"\npoint_m = [0.3, 0.0, 1.5]\n";
+    let Err(error) = Experiment::build(&load_text("edge.toml", edge, &[])) else { panic!("beyond reach") };
+    let error = error.to_string();
+    for part in ["should be 1.500000 m high", "to 1.499999 m"] {
+        assert!(error.contains(part), "{part:?} is not in:\n{error}");
+    }
+}
+
+/// 1 m at 0.5 m/s: with 1 m/s^2 and a jerk of 10 m/s^3 the S-curve takes 1/0.5 + 0.5/1 + 1/10 = 2.6 s.
+const POINTS: &str = r#"
+name = "points"
+[simulation]
+duration_s = 2.0
+[trajectory]
+kind = "waypoints"
+points_m = [[0.5, 0.0, 0.5], [1.5, 0.0, 0.5]]
+speed_m_s = 0.5
+acceleration_m_s2 = 1.0
+jerk_m_s3 = 10.0
+"#;
+
+#[test]
+fn warnings_tell_of_a_motion_longer_than_the_run() {
+    let warned = |sets: &[&str]| build(&load_text("points.toml", POINTS, sets)).reference_warnings(1e9);
+    let told = |motion: &str, run: &str| {
+        vec![format!("the motion through the way points takes {motion} s; the run ends after {run} s")]
+    };
+    assert_eq!(warned(&[]), told("2.600", "2.000"), "cut off");
+    assert!(warned(&["simulation.duration_s=2.7"]).is_empty(), "long enough");
+    // A ramp, which a scenario does not give such a motion, delays it by half its time.
+    let mut ramped = closed(&load_text("points.toml", POINTS, &[])).trajectory;
+    ramped.start_ramp = 0.4;
+    let motion = ramped.motion_duration().unwrap();
+    assert!((motion - 2.8).abs() < 1e-12, "{motion} s");
+    let before = ramped.at(motion - 0.01).velocity.norm();
+    assert!(before > 0.0 && ramped.at(motion + 1e-9).velocity.norm() < 1e-12, "at rest from then on");
 }
 
 #[test]

@@ -77,6 +77,19 @@ impl Experiment {
         }
     }
 
+    /// What a user should know of its reference, over the time simulated: how long it was beyond the arm's reach in height, and
+    /// that a motion through points takes longer than the run.
+    #[must_use]
+    pub fn reference_warnings(&self, simulated_s: f64) -> Vec<String> {
+        match self {
+            Self::Closed(simulation) => {
+                let robot = simulation.plant.robot();
+                trajectory::warnings(robot, &simulation.trajectory, &simulation.clock, simulated_s)
+            }
+            Self::Open(_) => Vec::new(),
+        }
+    }
+
     /// Its clock.
     #[must_use]
     pub const fn clock(&self) -> &Clock {

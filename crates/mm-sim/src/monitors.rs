@@ -28,15 +28,20 @@ pub struct MonitorReport {
     pub lyapunov_max_j: Option<f64>,
     /// Largest V' at a sample, W: how fast V ever grew; none without a sample.
     pub lyapunov_rate_max_w: Option<f64>,
-    /// Largest gain that the reaching condition (4.44) asked for at a sample, by channel, N and N m; none without a sample.
+    /// Largest gain that the reaching condition (4.44) asked for at a sample, by channel, N and N m; none without a sample or for
+    /// a law without a switching gain.
     pub reaching_bound_max: [Option<f64>; 5],
     /// Fraction of the samples at which the law's gain was enough, by channel; none without a sample or such a gain.
     pub reaching_met_fraction: [Option<f64>; 5],
+    /// Fraction of the samples at which the law's gain was too small in some channel; none without a sample or such a gain.
+    pub reaching_failed_fraction: Option<f64>,
+    /// The controller or an actuator limited a torque.
+    pub torque_limited: Lasting,
     /// Fraction of the control periods in which the controller cut its torque to the limit, by actuator.
     pub torque_limited_fraction: PerTorque,
-    /// Near a singularity: the pseudo-inverse was damped, if damping is on.
+    /// Near a singularity: the manipulability was below its threshold; the pseudo-inverse was damped if damping is on.
     pub near_singular: Lasting,
-    /// The outer loop cut the speed at which it corrects the tip's error.
+    /// The outer loop bounded the speed of its correction or the base's forward speed.
     pub speed_limited: Lasting,
     /// The outer loop held a joint's rate to the bound that keeps it within its limits.
     pub joint_limited: Lasting,
@@ -69,6 +74,7 @@ pub struct Monitors {
     near_singular: Counter,
     speed_limited: Counter,
     joint_limited: Counter,
+    any_torque_limited: Counter,
     torque_limited: [u64; 5],
     samples: u64,
     lyapunov_max: f64,
@@ -87,6 +93,7 @@ impl Monitors {
             near_singular: Counter::default(),
             speed_limited: Counter::default(),
             joint_limited: Counter::default(),
+            any_torque_limited: Counter::default(),
             torque_limited: [0; 5],
             samples: 0,
             lyapunov_max: 0.0,
@@ -97,19 +104,20 @@ impl Monitors {
         }
     }
 
-    /// Takes the outcomes of a control tick; most have none.
+    /// Takes the outcomes of a control tick, most have none, and whether the controller or an actuator limited a torque.
     #[inline]
-    pub fn tick(&mut self, t: f64, output: &Output<f64, 3>) {
-        let Status { saturated, near_singular, speed_limited, joint_limited, .. } = output.status;
+    pub fn tick(&mut self, t: f64, output: &Output<f64, 3>, torque_limited: bool) {
+        let Status { near_singular, speed_limited, joint_limited, .. } = output.status;
         // One branch instead of four.
-        if saturated | near_singular | speed_limited | joint_limited {
-            self.count(t, output);
+        if torque_limited | near_singular | speed_limited | joint_limited {
+            self.count(t, output, torque_limited);
         }
     }
 
     #[inline(never)]
-    fn count(&mut self, t: f64, output: &Output<f64, 3>) {
+    fn count(&mut self, t: f64, output: &Output<f64, 3>, torque_limited: bool) {
         let status = &output.status;
+        self.any_torque_limited.add(t, torque_limited);
         self.near_singular.add(t, status.near_singular);
         self.speed_limited.add(t, status.speed_limited);
         self.joint_limited.add(t, status.joint_limited);
@@ -118,15 +126,16 @@ impl Monitors {
         }
     }
 
-    /// Takes a sample: the Lyapunov function and the gain that the reaching condition asks for.
+    /// Takes a sample: the Lyapunov function and the gain that the reaching condition asks for, which means nothing to a law
+    /// without a switching gain.
     pub fn sample(&mut self, lyapunov: &Lyapunov, required: &Force<f64, 3>) {
         self.samples += 1;
         self.lyapunov_max = Real::max(self.lyapunov_max, lyapunov.value);
         self.lyapunov_rate_max = Real::max(self.lyapunov_rate_max, lyapunov.rate);
+        let Some(authority) = &self.authority else { return };
         for (most, needed) in self.bound_max.iter_mut().zip(required.channels()) {
             *most = Real::max(*most, needed);
         }
-        let Some(authority) = &self.authority else { return };
         let mut all = true;
         for ((count, needed), offered) in
             self.enough.iter_mut().zip(required.channels()).zip(authority.channels())
@@ -150,13 +159,16 @@ impl Monitors {
     pub fn report(&self, ticks: u64) -> MonitorReport {
         let of_samples = |count| fraction(count, self.samples);
         let sampled = self.samples > 0;
+        let judged = sampled && self.authority.is_some();
         let [right, left, j1, j2, j3] =
             self.torque_limited.map(|count| fraction(count, ticks).unwrap_or(0.0));
         MonitorReport {
             lyapunov_max_j: sampled.then_some(self.lyapunov_max),
             lyapunov_rate_max_w: sampled.then_some(self.lyapunov_rate_max),
-            reaching_bound_max: self.bound_max.map(|most| sampled.then_some(most)),
-            reaching_met_fraction: self.enough.map(|count| self.authority.and_then(|_| of_samples(count))),
+            reaching_bound_max: self.bound_max.map(|most| judged.then_some(most)),
+            reaching_met_fraction: self.enough.map(|count| judged.then_some(count).and_then(of_samples)),
+            reaching_failed_fraction: judged.then_some(self.samples - self.all_enough).and_then(of_samples),
+            torque_limited: self.any_torque_limited.over(ticks),
             torque_limited_fraction: PerTorque { right, left, joints: [j1, j2, j3] },
             near_singular: self.near_singular.over(ticks),
             speed_limited: self.speed_limited.over(ticks),

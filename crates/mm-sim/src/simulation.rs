@@ -72,7 +72,8 @@ pub struct Sample<'a> {
     pub torque: &'a Torque<f64, 3>,
     /// Disturbance as a generalized force.
     pub external: Force<f64, 3>,
-    /// Switching gain that the reaching condition asks for.
+    /// Switching gain that the reaching condition asks for, what the controller's own limit cuts off counted as an external
+    /// force; zero for a law without a switching gain.
     pub required_gain: Force<f64, 3>,
     /// Lyapunov function of the sliding mode; zero for an imposed motion.
     pub lyapunov: Lyapunov,
@@ -211,12 +212,15 @@ struct Run<'a> {
     metrics: Accumulator,
     digest: Digest,
     monitors: Monitors,
+    /// Whether the law has a switching gain.
+    reaches: bool,
     crossed_at: Option<f64>,
 }
 
 impl<'a> Run<'a> {
     fn new(simulation: &'a Simulation) -> Self {
         let clock = &simulation.clock;
+        let authority = simulation.stack.law().authority();
         Self {
             simulation,
             control: simulation.stack.initial_state(),
@@ -226,7 +230,8 @@ impl<'a> Run<'a> {
             state: simulation.initial,
             metrics: Accumulator::new(clock.duration(), clock.period),
             digest: Digest::new(),
-            monitors: Monitors::new(simulation.stack.law().authority()),
+            monitors: Monitors::new(authority),
+            reaches: authority.is_some(),
             crossed_at: None,
         }
     }
@@ -300,7 +305,7 @@ impl<'a> Run<'a> {
             saturated: at_plant.saturated,
             within_limits,
         });
-        self.monitors.tick(t, output);
+        self.monitors.tick(t, output, at_plant.saturated);
         self.digest.add(t, q, nu, &at_plant.torque);
     }
 
@@ -317,15 +322,8 @@ impl<'a> Run<'a> {
         let Simulation { stack, plant, .. } = self.simulation;
         let external = plant.external(t, sines);
         let nu = &self.state.nu;
-        let signals: &Signals<f64, 3> = &output.signals;
-        let margin = &stack.gains().reaching_margin;
-        let required = required_gain(
-            (plant.robot_at(t), stack.learns()),
-            (&sines.posture, nu),
-            signals,
-            &external,
-            margin,
-        );
+        let required =
+            if self.reaches { self.required_gain(t, sines, output, external) } else { Force::zero() };
         let c = &stack.outer().params().sliding_gain;
         let lyapunov =
             Lyapunov::evaluate(plant.robot_at(t), (sines, nu), (output, &at_plant.torque), &external, c);
@@ -343,6 +341,30 @@ impl<'a> Run<'a> {
             saturated: at_plant.saturated,
             output: Some(output),
         }
+    }
+
+    /// The gain that the reaching condition asks for.
+    ///
+    /// The law's force is B(commanded); what the limit cuts off, B(torque - commanded), is authority that it has lost, and stands
+    /// beside the external force.
+    fn required_gain(
+        &self,
+        t: f64,
+        sines: &PlantSines,
+        output: &Output<f64, 3>,
+        external: Force<f64, 3>,
+    ) -> Force<f64, 3> {
+        let Simulation { stack, plant, .. } = self.simulation;
+        let robot = plant.robot_at(t);
+        let signals: &Signals<f64, 3> = &output.signals;
+        let cut = robot.force_of(&output.torque).minus(robot.force_of(&signals.commanded));
+        required_gain(
+            (robot, stack.learns()),
+            (&sines.posture, &self.state.nu),
+            signals,
+            &external.plus(cut),
+            &stack.gains().reaching_margin,
+        )
     }
 
     /// The plant over one control period.

@@ -24,6 +24,10 @@ pub struct Summary {
     pub control_period_s: f64,
     /// Seed of everything random.
     pub seed: u64,
+    /// How it ended: finished, interrupted, diverged or refused.
+    pub ended: &'static str,
+    /// Time simulated, s: less than the duration of a run that ended early.
+    pub simulated_s: f64,
     /// Metrics over the ticks simulated.
     pub metrics: Metrics,
     /// What the monitors saw; none for an imposed motion.
@@ -51,6 +55,11 @@ impl Summary {
     }
 }
 
+/// Fraction of the control periods above which limited torques are worth a warning: a start or a step may take less.
+const LIMITED_WORTH_SAYING: f64 = 0.01;
+/// Fraction of the samples above which a failing reaching condition is worth a warning.
+const FAILED_WORTH_SAYING: f64 = 0.05;
+
 /// What is worth saying about a run besides its numbers.
 #[must_use]
 pub fn warnings(result: &RunResult, speed_limit: f64) -> Vec<String> {
@@ -73,6 +82,14 @@ pub fn warnings(result: &RunResult, speed_limit: f64) -> Vec<String> {
             ("the arm was near a singularity", monitors.near_singular),
         ];
         all.extend(told.into_iter().filter_map(|(what, lasting)| during(what, lasting)));
+        if monitors.torque_limited.fraction > LIMITED_WORTH_SAYING {
+            all.extend(during("a torque was limited", monitors.torque_limited));
+        }
+        if let Some(failed) = monitors.reaching_failed_fraction
+            && failed > FAILED_WORTH_SAYING
+        {
+            all.push(format!("the reaching condition failed at {:.1} % of the samples", 100.0 * failed));
+        }
     }
     all
 }
@@ -82,6 +99,17 @@ fn during(what: &str, Lasting { fraction, first_s }: Lasting) -> Option<String> 
     let percent = 100.0 * fraction;
     let part = if percent < 0.1 { "less than 0.1".to_owned() } else { format!("{percent:.1}") };
     first_s.map(|t| format!("{what} in {part} % of the run, first at t = {t:.3} s"))
+}
+
+/// How a run ended, in a word.
+#[must_use]
+pub const fn ended(ending: &Ending) -> &'static str {
+    match ending {
+        Ending::Finished => "finished",
+        Ending::Stopped { .. } => "interrupted",
+        Ending::Diverged { .. } => "diverged",
+        Ending::Refused { .. } => "refused",
+    }
 }
 
 /// How a run ended, unless it finished.

@@ -88,6 +88,16 @@ impl Trajectory {
         if self.start_ramp > 0.0 || self.stop.is_some() { self.ramped(t) } else { self.path.at(t) }
     }
 
+    /// Time that a motion through points takes from rest to rest, its ramps included, s; none for any other path.
+    ///
+    /// Each ramp lets the path lag half the ramp's time behind the clock.
+    #[must_use]
+    pub fn motion_duration(&self) -> Option<f64> {
+        let Path::Waypoints(waypoints) = &self.path else { return None };
+        let ramps = self.start_ramp + self.stop.map_or(0.0, |stop| stop.ramp);
+        Some(waypoints.duration() + 0.5 * ramps)
+    }
+
     fn ramped(&self, t: f64) -> Reference<f64> {
         let OwnTime { time, rate, change } = OwnTime::at(t, self.start_ramp, self.stop);
         let at = self.path.at(time);

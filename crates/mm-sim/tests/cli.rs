@@ -43,7 +43,7 @@ fn nulls(value: &Value, prefix: &str, out: &mut Vec<String>) {
     }
 }
 
-const KEYS: &str = "schema scenario controller duration_s plant_step_s control_period_s seed \
+const KEYS: &str = "schema scenario controller duration_s plant_step_s control_period_s seed ended simulated_s \
     metrics.itae_m_s2.x metrics.itae_m_s2.y metrics.itae_m_s2.z metrics.itae_m_s2.sum \
     metrics.iae_m_s.x metrics.iae_m_s.y metrics.iae_m_s.z metrics.iae_m_s.sum \
     metrics.ise_m2_s.x metrics.ise_m2_s.y metrics.ise_m2_s.z metrics.ise_m2_s.sum \
@@ -54,6 +54,7 @@ const KEYS: &str = "schema scenario controller duration_s plant_step_s control_p
     metrics.effort_n2_m2_s metrics.energy_j metrics.saturated_fraction metrics.max_speed_m_s \
     metrics.min_manipulability metrics.sliding_band metrics.joint_limit_crossings metrics.reaching_condition_met \
     monitors.lyapunov_max_j monitors.lyapunov_rate_max_w monitors.reaching_bound_max monitors.reaching_met_fraction \
+    monitors.reaching_failed_fraction monitors.torque_limited.fraction monitors.torque_limited.first_s \
     monitors.torque_limited_fraction.right monitors.torque_limited_fraction.left \
     monitors.torque_limited_fraction.joints monitors.near_singular.fraction monitors.near_singular.first_s \
     monitors.speed_limited.fraction monitors.speed_limited.first_s monitors.joint_limited.fraction \
@@ -121,8 +122,8 @@ fn json_is_one_object_with_the_promised_keys() {
     assert!(digest.len() == 32 && digest.chars().all(|c| c.is_ascii_hexdigit()), "the digest {digest}");
     let mut undefined = Vec::new();
     nulls(&value, "", &mut undefined);
-    let never =
-        ["near_singular", "speed_limited", "joint_limited"].map(|what| format!(".monitors.{what}.first_s"));
+    let never = ["torque_limited", "near_singular", "speed_limited", "joint_limited"]
+        .map(|what| format!(".monitors.{what}.first_s"));
     assert_eq!(undefined, never, "all is defined in this run, but for when what never was began");
     let log = complete_log(&folder.path("out/square.mcap"));
     assert_eq!(summary(&log.attachments["summary.json"]), value, "the same summary in the log");

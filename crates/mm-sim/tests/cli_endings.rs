@@ -41,6 +41,9 @@ fn a_run_that_diverges_says_when_and_what_and_keeps_its_log() {
     }
     assert!(ended.stderr.contains("away.toml"), "the file is named:\n{}", ended.stderr);
     assert!(ended.stderr.contains("out/away.mcap"), "the log is named:\n{}", ended.stderr);
+    assert_eq!(value["ended"], "diverged", "in a word");
+    let until = value["simulated_s"].as_f64().expect("a number");
+    assert!(warning.contains(&format!("diverged at t = {until:.3} s")), "up to {until} s, not {warning}");
     let largest = value["metrics"]["max_error_m"].as_f64().expect("a number");
     assert!(largest > 10.0 && largest < 10.1, "the error that ended the run counts, not {largest} m");
     let log = complete_log(&folder.path("out/away.mcap"));
@@ -131,6 +134,7 @@ fn an_interrupted_run_leaves_a_complete_log() {
     assert_eq!(complete.result["outcome"], "interrupted", "how it ended");
     assert!(complete.topics["/control"] > 10, "with its samples: {:?}", complete.topics);
     let value = summary(&ended.stdout);
+    assert_eq!(value["ended"], "interrupted", "in a word");
     assert_eq!(summary(&complete.attachments["summary.json"]), value, "the summary of what was run");
     assert_eq!(complete.result["digest"], *value["digest"].as_str().expect("a digest"), "and its digest");
 }
@@ -168,11 +172,25 @@ fn an_improvement_is_that_of_whole_runs_and_of_numbers() {
     let compare = ["compare", "--scenario", "away.toml", "--controllers", "bsmc,bfsmc", "--no-log"];
     let json = summary(&folder.expect(1, &[&compare[..], &["--json"]].concat()).stdout);
     assert!(json.get("improvement_percent").is_none(), "none of runs that diverged: {json}");
+    let table = folder.expect(1, &compare).stdout;
+    let rows: Vec<&str> =
+        table.lines().filter(|line| line.starts_with("bsmc") || line.starts_with("bfsmc")).collect();
+    assert_eq!(rows.len(), 2, "a row for each:\n{table}");
+    let head = table.lines().find(|line| line.contains("ITAE sum")).expect("a head").len();
+    for (row, run) in rows.iter().zip(json["runs"].as_array().expect("runs")) {
+        let mark = format!("  (diverged at {:.3} s)", run["simulated_s"].as_f64().expect("a number"));
+        assert_eq!(row.split_at(head).1, mark, "a row that ended early says so behind its columns:\n{table}");
+    }
     // Straight along x: no error in y, nothing to improve there.
     let short = [&compare[..], &["--set", "simulation.duration_s=1"]].concat();
     let table = folder.expect(0, &short).stdout;
     let row = table.lines().find(|line| line.starts_with("bfsmc below bsmc by")).expect("an improvement");
     assert!(row.contains(" - ") && !table.contains("NaN"), "undefined is a dash:\n{table}");
+    assert!(!table.contains(" at 1.000 s"), "a finished run has no mark:\n{table}");
     let json = summary(&folder.expect(0, &[&short[..], &["--json"]].concat()).stdout);
+    assert_eq!(
+        (&json["runs"][0]["ended"], &json["runs"][0]["simulated_s"]),
+        (&"finished".into(), &1.0.into())
+    );
     assert!(json["improvement_percent"]["y"].is_null(), "and null in JSON");
 }

@@ -109,6 +109,7 @@ pub(super) fn execute(
     let file = &loaded.file;
     let simulated = result.simulated_s(experiment.clock());
     let mut warnings = summary::warnings(&result, experiment.plant().robot().params().limits.speed);
+    warnings.extend(experiment.reference_warnings(simulated));
     if loaded.is_modified() {
         let missed = summary::missed(&file.expect, &result.metrics);
         warnings.extend(missed.into_iter().map(|miss| format!("[expect] missed: {miss}")));
@@ -123,6 +124,8 @@ pub(super) fn execute(
         plant_step_s: file.simulation.plant_step_s,
         control_period_s: file.simulation.control_period_s,
         seed: file.simulation.seed,
+        ended: summary::ended(&result.ending),
+        simulated_s: simulated,
         metrics: result.metrics,
         monitors: result.monitors,
         digest: result.digest,

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::metrics::PerAxisSum;
-use crate::summary::Summary;
+use crate::simulation::Ending;
+use crate::summary::{Summary, ended};
 
 /// ITAE of Table 5.2 of the thesis: x, y, z, sum, for its BSMC and BFSMC.
 const TABLE_5_2: [(&str, [f64; 4]); 2] =
@@ -34,7 +35,7 @@ pub(super) fn single(s: &Summary) -> String {
         "{} with {}: {} of {} s simulated in {} s, {} times real time\n\n",
         s.scenario,
         s.controller,
-        short(s.real_time_factor * s.wall_s),
+        short(s.simulated_s),
         short(s.duration_s),
         short(s.wall_s),
         short(s.real_time_factor)
@@ -116,6 +117,10 @@ pub(super) fn comparison(runs: &[Summary], improvement: Option<PerAxisSum>) -> S
         let _ = write!(out, "{:20}", run.controller);
         for cell in cells.map(short) {
             let _ = write!(out, " {cell:>11}");
+        }
+        if run.ended != ended(&Ending::Finished) {
+            // Its integrals cover less time than those of the others.
+            let _ = write!(out, "  ({} at {:.3} s)", run.ended, run.simulated_s);
         }
         out.push('\n');
     }

@@ -82,33 +82,76 @@ pub(super) fn check_heights(
         return Ok(());
     }
     let (low, high) = robot.tip_height_range();
-    let every = (clock.ticks / 10_000).max(1);
-    let step = usize::try_from(every).unwrap_or(1);
-    for tick in (0..clock.ticks).step_by(step).chain(clock.ticks.checked_sub(1)) {
-        let t = clock.time(tick);
-        let height = trajectory.at(t).position.z;
-        if height < low - 1e-9 || height > high + 1e-9 {
-            let key = match loaded.file.trajectory.motion {
-                Motion::Step { .. } => "trajectory.by_m",
-                Motion::Line { .. } => "trajectory.velocity_m_s",
-                Motion::Circle { .. } => "trajectory.center_m",
-                Motion::Hold { .. } => "trajectory.point_m",
-                Motion::Waypoints { .. } => &waypoint_beyond(loaded, low, high),
-                _ => "trajectory.kind",
-            };
-            let message =
-                format!("at t = {t:.3} s the tip should be {height:.4} m high, which no posture reaches");
-            let expected = format!("a height from {low:.4} to {high:.4} m, or `allow_unreachable = true`");
-            return Err(loaded.problem(key, message, expected));
+    let beyond = heights(trajectory, clock).find(|(_, height)| is_beyond(*height, (low, high)));
+    let Some((t, height)) = beyond else { return Ok(()) };
+    let key = match loaded.file.trajectory.motion {
+        Motion::Step { .. } => "trajectory.by_m",
+        Motion::Line { .. } => "trajectory.velocity_m_s",
+        Motion::Circle { .. } => "trajectory.center_m",
+        Motion::Hold { .. } => "trajectory.point_m",
+        Motion::Waypoints { .. } => &waypoint_beyond(loaded, (low, high)),
+        _ => "trajectory.kind",
+    };
+    let message = format!("at t = {t:.3} s the tip should be {height:.6} m high, which no posture reaches");
+    // Rounded inwards: what is printed is within reach, and at the edge differs from what is refused.
+    let (low, high) = ((low * 1e6).ceil() / 1e6, (high * 1e6).floor() / 1e6);
+    let expected = format!("a height from {low:.6} to {high:.6} m, or `allow_unreachable = true`");
+    Err(loaded.problem(key, message, expected))
+}
+
+/// What a user should know of a reference over the time simulated.
+pub(super) fn warnings(
+    robot: &Robot<f64, 3>,
+    trajectory: &Trajectory,
+    clock: &Clock,
+    simulated_s: f64,
+) -> Vec<String> {
+    let mut all = Vec::new();
+    let range = robot.tip_height_range();
+    let (mut seen, mut beyond, mut when) = (0_u32, 0_u32, None);
+    for (t, height) in heights(trajectory, clock).take_while(|(t, _)| *t <= simulated_s) {
+        seen += 1;
+        if is_beyond(height, range) {
+            beyond += 1;
+            let (first, _) = when.unwrap_or((t, t));
+            when = Some((first, t));
         }
     }
-    Ok(())
+    if let Some((first, last)) = when {
+        let percent = 100.0 * f64::from(beyond) / f64::from(seen);
+        all.push(format!(
+            "the reference was beyond the arm's reach in height for {percent:.1} % of the run, \
+             first at t = {first:.3} s, last at t = {last:.3} s"
+        ));
+    }
+    let run = clock.duration();
+    if let Some(motion) = trajectory.motion_duration()
+        && motion > run + 1e-9
+    {
+        all.push(format!(
+            "the motion through the way points takes {motion:.3} s; the run ends after {run:.3} s"
+        ));
+    }
+    all
+}
+
+/// Times of a run, some ten thousand of them with the last tick, and the heights of the reference there, s and m.
+fn heights(trajectory: &Trajectory, clock: &Clock) -> impl Iterator<Item = (f64, f64)> {
+    let step = usize::try_from((clock.ticks / 10_000).max(1)).unwrap_or(1);
+    let last = clock.ticks.saturating_sub(1);
+    let ticks = (0..last).step_by(step).chain((clock.ticks > 0).then_some(last));
+    ticks.map(|tick| clock.time(tick)).map(|t| (t, trajectory.at(t).position.z))
+}
+
+/// Whether no posture within the joint limits reaches a height, but for rounding.
+fn is_beyond(height: f64, (low, high): (f64, f64)) -> bool {
+    height < low - 1e-9 || height > high + 1e-9
 }
 
 /// The first point out of reach, or all of them where only the curve between them is.
-fn waypoint_beyond(loaded: &Loaded, low: f64, high: f64) -> String {
+fn waypoint_beyond(loaded: &Loaded, range: (f64, f64)) -> String {
     let all = "trajectory.points_m";
     let Motion::Waypoints { points_m, .. } = &loaded.file.trajectory.motion else { return all.to_owned() };
-    let beyond = points_m.iter().flatten().position(|[_, _, z]| *z < low - 1e-9 || *z > high + 1e-9);
+    let beyond = points_m.iter().flatten().position(|[_, _, z]| is_beyond(*z, range));
     beyond.map_or_else(|| all.to_owned(), |index| format!("{all}.{index}"))
 }

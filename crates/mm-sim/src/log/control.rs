@@ -109,30 +109,44 @@ pub(super) static NUMBERS: [Number; 75] = [
     number("learned_joint3_n_m", "learned part of the generalized force: joint 3", |s| s.learned[4]),
     number("manipulability", "square root of det(J transpose(J))", |s| s.manipulability),
     number("damping", "damping of the pseudo-inverse", |s| s.damping),
-    number("reaching_bound_forward_n", "smallest switching gain that reaches: along forward", |s| {
-        s.reaching_bound[0]
-    }),
-    number("reaching_bound_yaw_n_m", "smallest switching gain that reaches: about the vertical", |s| {
-        s.reaching_bound[1]
-    }),
-    number("reaching_bound_joint1_n_m", "smallest switching gain that reaches: joint 1", |s| {
-        s.reaching_bound[2]
-    }),
-    number("reaching_bound_joint2_n_m", "smallest switching gain that reaches: joint 2", |s| {
-        s.reaching_bound[3]
-    }),
-    number("reaching_bound_joint3_n_m", "smallest switching gain that reaches: joint 3", |s| {
-        s.reaching_bound[4]
-    }),
+    number(
+        "reaching_bound_forward_n",
+        "smallest switching gain that reaches, 0 for a law without one: along forward",
+        |s| s.reaching_bound[0],
+    ),
+    number(
+        "reaching_bound_yaw_n_m",
+        "smallest switching gain that reaches, 0 for a law without one: about the vertical",
+        |s| s.reaching_bound[1],
+    ),
+    number(
+        "reaching_bound_joint1_n_m",
+        "smallest switching gain that reaches, 0 for a law without one: joint 1",
+        |s| s.reaching_bound[2],
+    ),
+    number(
+        "reaching_bound_joint2_n_m",
+        "smallest switching gain that reaches, 0 for a law without one: joint 2",
+        |s| s.reaching_bound[3],
+    ),
+    number(
+        "reaching_bound_joint3_n_m",
+        "smallest switching gain that reaches, 0 for a law without one: joint 3",
+        |s| s.reaching_bound[4],
+    ),
     number("lyapunov_j", "V = s'Ms/2 with the true inertia", |s| s.lyapunov),
-    number("lyapunov_rate_w", "its rate along the true motion", |s| s.lyapunov_rate),
+    number("lyapunov_rate_w", "its rate along the true motion, but for an estimator's error and slip", |s| {
+        s.lyapunov_rate
+    }),
 ];
 
 /// The flags, after the numbers.
 pub(super) static FLAGS: [Flag; 9] = [
     flag("saturated", "a torque was limited", |s| s.saturated),
-    flag("near_singular", "the damping was active", |s| s.near_singular),
-    flag("speed_limited", "the correction of the tip's error was cut to its largest speed", |s| {
+    flag("near_singular", "manipulability below the threshold (damped if damping is on)", |s| {
+        s.near_singular
+    }),
+    flag("speed_limited", "the outer loop bounded the correction's speed or the base's forward speed", |s| {
         s.speed_limited
     }),
     flag("joint_limited", "a joint's rate was held to the bound that keeps it within its limits", |s| {

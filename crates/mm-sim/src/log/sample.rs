@@ -52,17 +52,17 @@ pub struct LogSample {
     pub manipulability: f64,
     /// Damping of the pseudo-inverse.
     pub damping: f64,
-    /// Smallest switching gain that the reaching condition allows, N and N m.
+    /// Smallest switching gain that the reaching condition allows, N and N m; 0 for a law without a switching gain.
     pub reaching_bound: [f64; 5],
     /// Lyapunov function of the sliding mode, J.
     pub lyapunov: f64,
-    /// Its rate, W.
+    /// Its rate by the law's own nu_r', W; with an estimator that of V but for the estimate's error and slip.
     pub lyapunov_rate: f64,
     /// Whether a torque was limited.
     pub saturated: bool,
-    /// Whether the damping was active.
+    /// Whether the manipulability was below its threshold; damped if damping is on.
     pub near_singular: bool,
-    /// Whether the speed of the correction was limited.
+    /// Whether the outer loop bounded the correction's speed or the base's forward speed.
     pub speed_limited: bool,
     /// Whether a joint was held to the bound of its rate.
     pub joint_limited: bool,

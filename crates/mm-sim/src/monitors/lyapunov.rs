@@ -13,7 +13,8 @@ use crate::plant::PlantSines;
 /// V = s'M s / 2,   V' = s'(M s' + C s),   s' = nu' - nu_r'
 /// ```
 /// V' follows from M_dot = C + C' (Property 3). nu_r' is that of the law; while a torque is limited the integral in nu_r is held, and
-/// nu_r' = nu_c' then. V is zero on the sliding surface, and a law that reaches makes it fall everywhere else; within the band that
+/// nu_r' = nu_c' then. With an estimator s is that of the true velocity, while nu_r' is what the law worked out from its estimate:
+/// V' is then the rate of V but for the estimate's error and slip. V is zero on the sliding surface, and a law that reaches makes it fall everywhere else; within the band that
 /// sampling leaves it rises and falls.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Lyapunov {
