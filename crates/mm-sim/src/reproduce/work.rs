@@ -233,6 +233,7 @@ impl Planned {
         let recording = recorder.recording;
         write(&out.join(self.data()), |file| recording.write_csv(file))?;
         let mut warnings = summary::warnings(&result, self.built.plant().robot().params().limits.speed);
+        warnings.extend(self.built.reference_warnings(result.simulated_s(self.built.clock())));
         warnings.extend(summary::describe(&result.ending));
         let finished = matches!(result.ending, Ending::Finished);
         let is_judged = finished && !self.loaded.is_modified();

@@ -89,7 +89,8 @@ pub fn tunables(law: LawKind) -> Vec<Group> {
         LawKind::Bsmc => (&[(SWITCHING, FORCE)], &[]),
         LawKind::BsmcSat => (&[(SWITCHING, FORCE), (LAYER, WIDTH)], &[]),
         LawKind::BfsmcThesis => (&[(SWITCHING, FORCE), (FUZZY, FORCE), (FUZZY_SCALE, WIDTH)], &[]),
-        LawKind::Bfsmc => (&[(FUZZY, FORCE), (FUZZY_SCALE, WIDTH)], &[(OBSERVER, BANDWIDTH)]),
+        // The surface's force stays: what it can oppose to s is not for a swarm to give away on one scenario.
+        LawKind::Bfsmc => (&[(FUZZY_SCALE, WIDTH)], &[(OBSERVER, BANDWIDTH)]),
         LawKind::Ctc => (&[(DAMPING, LINEAR), (STIFFNESS, POWER)], &[]),
         LawKind::Pid => (&[(DAMPING, LINEAR), (STIFFNESS, POWER), (INTEGRAL, POWER)], &[]),
         LawKind::Lqr => (&[(POSITION, WIDTH), (VELOCITY, WIDTH)], &[]),
