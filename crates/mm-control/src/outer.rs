@@ -120,7 +120,7 @@ where
     /// Evaluates the law at a configuration, given with its sines, with `nu` the measured velocity.
     ///
     /// `update` counts the updates since the start, from 0; it matters below [`held_updates`](Self::held_updates) only.
-    #[inline]
+    #[inline(always)]
     pub fn evaluate(
         &self,
         robot: &Robot<T, N>,

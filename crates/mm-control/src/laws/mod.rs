@@ -199,7 +199,7 @@ where
 
     /// The force that a switching law opposes to the sliding variable; none for a law that is no function of s alone.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn switching_force(&self, s: &Velocity<T, N>) -> Option<RobustForce<T, N>> {
         let plain = |total| Some(RobustForce { total, fuzzy: Force::zero() });
         match self {

@@ -36,14 +36,14 @@ where
     Robot<T, N>: Mechanism<T, N>,
 {
     /// The equivalent control M nu_r' + C nu_r + g + friction.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn equivalent(&self) -> Force<T, N> {
         let Self { robot, inertia, nu, nu_r, dnu_r, .. } = self;
         robot.mass_product(inertia, dnu_r).plus(robot.coriolis_product(inertia, nu, nu_r)).plus(self.load)
     }
 
     /// The equivalent control with a force of s on top.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn switching(&self, robust: RobustForce<T, N>) -> Drive<T, N> {
         let equivalent = self.equivalent();
         Drive {
