@@ -93,9 +93,11 @@ fn draw_laws(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>) -> Resu
     for law in LawKind::ALL {
         let point = result(law)?;
         let color = if law == LawKind::Bfsmc { LAWS[3].1 } else { RGBColor(90, 90, 90) };
+        // Two pairs of laws lie side by side.
+        let up = if matches!(law, LawKind::Bsmc | LawKind::BsmcSat) { -20 } else { -4 };
         let label = EmptyElement::at(point)
             + Circle::new((0, 0), 5, color.filled())
-            + Text::new(law.name(), (9, -8), ("sans-serif", 14).into_font().color(&color));
+            + Text::new(law.name(), (9, up), ("sans-serif", 14).into_font().color(&color));
         chart.draw_series(std::iter::once(label))?;
     }
     Ok(())
