@@ -16,8 +16,6 @@ use mm_sim::plant::Plant;
 use mm_sim::simulation::{Ending, RunResult, Simulation};
 use mm_tests::{Random, build, closed, finished, load, measured};
 
-const DURATION: f64 = 98.0;
-
 /// The scenario with another plant: masses and inertias each within 40 %, torques up to 15 N m of any shape on each joint, 0 to 2 periods
 /// of delay, a start up to 5 cm off.
 fn random_plant(seed: u64, duration: f64) -> Simulation {
