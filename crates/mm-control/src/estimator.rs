@@ -106,7 +106,7 @@ impl<T, const N: usize> Memory<T, N> {
 
 impl<T: Real, const N: usize> Memory<T, N> {
     /// Tells an observer which acceleration the model expects until the next measurement.
-    pub(crate) fn expect(&mut self, acceleration: &Velocity<T, N>) {
+    pub(crate) fn foresee(&mut self, acceleration: &Velocity<T, N>) {
         if let Some(Seen { channels: Channels::Observer(state), .. }) = &mut self.0 {
             state.model = *acceleration;
         }

@@ -259,7 +259,7 @@ where
         if self.estimator.wants_model() {
             let inertia = self.robot.inertia(&sines.posture);
             let force = self.robot.force_of(&output.torque);
-            next.estimator.expect(&self.robot.acceleration(&inertia, &nu, &force));
+            next.estimator.foresee(&self.robot.acceleration(&inertia, &nu, &force));
         }
         if !next.estimator.is_finite() {
             return Err(ControlError::Overflow);
