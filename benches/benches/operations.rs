@@ -8,7 +8,7 @@ use anyhow::Result;
 use criterion::{BatchSize, Criterion, Throughput};
 use mm_benches::{numbers, points, recorded, robot, square, stack};
 use mm_control::LawKind;
-use mm_control::fuzzy::{FuzzySystem, SMOOTH, Surface, THESIS};
+use mm_control::fuzzy::{Curve, FuzzySystem, SMOOTH, Surface, THESIS};
 use mm_model::Force;
 use mm_sim::disturbance::Disturbances;
 use mm_sim::plant::Plant;
@@ -45,8 +45,8 @@ fn dynamics(criterion: &mut Criterion) -> Result<()> {
 }
 
 fn fuzzy(criterion: &mut Criterion) -> Result<()> {
-    let engine = THESIS.engine()?;
-    let surface = Surface::<f64, 65>::from_engine(&SMOOTH.engine()?)?;
+    let engine = Curve::<f64>::try_new(&THESIS)?;
+    let surface = Surface::<f64, 65>::from_engine(&Curve::<f64>::try_new(&SMOOTH)?)?;
     cycle(criterion, "fuzzy system, exact", &numbers(-1.4, 1.4), |x| black_box(&engine).evaluate(*x));
     cycle(criterion, "fuzzy system, surface", &numbers(-1.0, 1.0), |x| black_box(&surface).evaluate(*x));
     Ok(())

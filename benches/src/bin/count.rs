@@ -8,7 +8,7 @@ use std::hint::black_box;
 use anyhow::{Context, Result, bail, ensure};
 use mm_benches::{numbers, points, recorded, robot, square, stack};
 use mm_control::LawKind;
-use mm_control::fuzzy::{FuzzySystem, SMOOTH, Surface, THESIS};
+use mm_control::fuzzy::{Curve, FuzzySystem, SMOOTH, Surface, THESIS};
 use mm_model::{Force, Real};
 use mm_sim::disturbance::Disturbances;
 use mm_sim::plant::Plant;
@@ -46,11 +46,11 @@ fn main() -> Result<()> {
         "sin-cos" => repeat(times, &numbers::<f64>(-3.2, 3.2), |x| Real::sin_cos(*x)),
         "sin-cos-f32" => repeat(times, &numbers::<f32>(-3.2, 3.2), |x| Real::sin_cos(*x)),
         "fuzzy-exact" => {
-            let engine = THESIS.engine()?;
+            let engine = Curve::<f64>::try_new(&THESIS)?;
             repeat(times, &numbers(-1.4, 1.4), |x| black_box(&engine).evaluate(*x));
         }
         "fuzzy-surface" => {
-            let surface = Surface::<f64, 65>::from_engine(&SMOOTH.engine()?)?;
+            let surface = Surface::<f64, 65>::from_engine(&Curve::<f64>::try_new(&SMOOTH)?)?;
             repeat(times, &numbers(-1.0, 1.0), |x| black_box(&surface).evaluate(*x));
         }
         "update-bfsmc" => update(LawKind::Bfsmc, times)?,

@@ -4,7 +4,7 @@ use mm_model::{Configuration, Mechanism, Real, Robot, SinesOf, Velocity, check};
 use nalgebra::Vector3;
 
 use crate::estimator::{Estimate, Estimator, Measurement, Memory, Stage};
-use crate::fuzzy::Mamdani;
+use crate::fuzzy::{Bundled, FuzzySystem};
 use crate::laws::{Bfsmc, Drive, Gains, Law, Memory as LawMemory, Tracking};
 use crate::observer::{MomentumObserver, ObserverState};
 use crate::outer::{OuterLoop, OuterOutput, OuterParams};
@@ -98,7 +98,10 @@ where
         robot: Robot<T, N>,
         kind: crate::LawKind,
         params: StackParams<T, N>,
-    ) -> Result<Self, SetupError> {
+    ) -> Result<Self, SetupError>
+    where
+        T: Bundled,
+    {
         let law = Law::try_new(kind, &robot, &params.gains)?;
         Self::with_law(robot, law, params)
     }
@@ -109,7 +112,7 @@ where
     /// The first parameter that does not work, by name, or the rule base.
     pub fn with_rules(
         robot: Robot<T, N>,
-        rules: &Mamdani<'_, T>,
+        rules: &impl FuzzySystem<T>,
         params: StackParams<T, N>,
     ) -> Result<Self, SetupError> {
         Self::with_law(robot, Law::Bfsmc(Bfsmc::with_rules(&params.gains, rules)?), params)

@@ -18,6 +18,7 @@ mod common {
 
 use common::plant::Plant;
 use common::random::Random;
+use mm_control::fuzzy::Bundled;
 use mm_control::{
     ControlError, ControlStack, Estimator, Gains, LawKind, Measurement, OuterParams, Output, Reference,
     SetupError, StackParams, WheelAngles,
@@ -32,7 +33,7 @@ fn thesis<T: Real>() -> Robot<T, 3> {
     Robot::try_new(RobotParams::thesis()).unwrap()
 }
 
-fn try_stack<T: Real, const N: usize>(
+fn try_stack<T: Bundled, const N: usize>(
     robot: Robot<T, N>,
     estimator: Estimator<T>,
 ) -> Result<ControlStack<T, N>, SetupError>

@@ -15,8 +15,9 @@
 )]
 
 use mm_control::fuzzy::{
-    FuzzyError, FuzzySystem, MAX_OUTPUT_TERMS, Mamdani, MamdaniTables, MembershipFunction, Rule, SMOOTH,
-    Surface, THESIS,
+    Aggregation, Connective, Curve, Defuzzifier, FuzzyError, FuzzySystem, Implication, Mamdani,
+    MamdaniTables, MembershipFunction, Operators, Rule, SMOOTH, SMOOTH_F32, Sampling, Surface, THESIS,
+    THESIS_F32, Variable,
 };
 use proptest::prelude::*;
 
@@ -37,45 +38,76 @@ impl Lcg {
 }
 
 /// Degree of `y` in the trapezoid, as the minimum of its two sides.
-fn sampled_degree([a, b, c, d]: [f64; 4], y: f64) -> f64 {
+fn degree_of(shape: &MembershipFunction<f64>, y: f64) -> f64 {
+    let [a, b, c, d] = shape.corners(-100.0, 100.0).unwrap();
     let left = if y >= b { 1.0 } else { (y - a) / (b - a) };
     let right = if y <= c { 1.0 } else { (d - y) / (d - c) };
     left.min(right).clamp(0.0, 1.0)
 }
 
-/// Centroid by the midpoint rule with `n` points; the middle of the range without area.
-fn sampled_centroid(tables: &MamdaniTables<'_, f64>, x: f64, n: u32) -> f64 {
-    let x = x.clamp(tables.input_range.0, tables.input_range.1);
-    let mut strengths = vec![0.0_f64; tables.output_terms.len()];
-    for rule in tables.rules {
-        let strength = rule.weight * sampled_degree(tables.input_terms[rule.input].breakpoints(), x);
-        strengths[rule.output] = strengths[rule.output].max(strength);
-    }
-    let terms: Vec<_> =
-        tables.output_terms.iter().map(MembershipFunction::breakpoints).zip(strengths).collect();
-    let (lo, hi) = tables.output_range;
+/// Degree of the term that a rule names, or of its complement.
+fn named_degree(variable: &Variable<'_, f64>, index: i16, y: f64) -> f64 {
+    let degree = degree_of(&variable.terms[usize::from(index.unsigned_abs()) - 1], y);
+    if index < 0 { 1.0 - degree } else { degree }
+}
+
+/// The one output of a system of one input, by the midpoint rule with `n` points and by rule after rule; the middle of
+/// the range without area.
+fn quadrature(tables: &MamdaniTables<'_, f64>, x: f64, n: u32) -> f64 {
+    let (input, output) = (&tables.inputs[0], &tables.outputs[0]);
+    let x = x.clamp(input.range.0, input.range.1);
+    let fired: Vec<_> = tables
+        .rules
+        .iter()
+        .map(|rule| (rule.outputs[0], rule.weight * named_degree(input, rule.inputs[0], x)))
+        .filter(|(_, strength)| *strength > 0.0)
+        .collect();
+    let (lo, hi) = output.range;
     let step = (hi - lo) / f64::from(n);
     let (mut area, mut moment) = (0.0, 0.0);
     for k in 0..n {
         let y = lo + (f64::from(k) + 0.5) * step;
-        let m = terms.iter().fold(0.0_f64, |m, (term, w)| m.max(sampled_degree(*term, y).min(*w)));
+        let shaped = fired.iter().map(|&(index, strength)| {
+            let degree = named_degree(output, index, y);
+            if tables.operators.implication == Implication::Min {
+                degree.min(strength)
+            } else {
+                degree * strength
+            }
+        });
+        let m = if tables.operators.aggregation == Aggregation::Sum {
+            shaped.sum()
+        } else {
+            shaped.fold(0.0, f64::max)
+        };
         area += m;
         moment += m * y;
     }
     if area > 0.0 { moment / area } else { 0.5 * (lo + hi) }
 }
 
-/// A random trapezoid around the range [-1, 1], every third time with a doubled breakpoint.
+/// A random piecewise-linear term around the range [-1, 1], every third time with a doubled breakpoint.
 fn random_term(random: &mut Lcg) -> MembershipFunction<f64> {
     let mut p = [0.0; 4].map(|_: f64| 3.0 * random.uniform() - 1.5);
     p.sort_by(f64::total_cmp);
     match random.index(6) {
         0 => p[1] = p[0],
         1 => p[2] = p[3],
-        2 | 3 => p[2] = p[1],
         _ => {}
     }
-    MembershipFunction::try_trapezoid(p[0], p[1], p[2], p[3]).unwrap()
+    match random.index(6) {
+        0 => MembershipFunction::LinearS([p[0], p[1]]),
+        1 => MembershipFunction::LinearZ([p[2], p[3]]),
+        2 | 3 => MembershipFunction::Triangle([p[0], p[1], p[3]]),
+        _ => MembershipFunction::Trapezoid(p),
+    }
+}
+
+/// A partition of [-1, 1] by `count` triangles from neighbour to neighbour, as most rule bases have it.
+fn random_partition(random: &mut Lcg, count: usize) -> Vec<MembershipFunction<f64>> {
+    let mut peaks: Vec<f64> = (0..count + 2).map(|_| 2.0 * random.uniform() - 1.0).collect();
+    peaks.sort_by(f64::total_cmp);
+    peaks.windows(3).map(|p| MembershipFunction::Triangle([p[0], p[1], p[2]])).collect()
 }
 
 /// `n` inputs from `lo` to `hi`, mirrored bit by bit when the range is.
@@ -87,24 +119,45 @@ fn inputs(half: f64, n: i32) -> impl Iterator<Item = f64> {
 fn centroid_agrees_with_quadrature_on_random_systems() {
     let mut random = Lcg(2026);
     let mut worst = 0.0_f64;
-    let systems = if cfg!(debug_assertions) { 20 } else { 100 };
+    let systems = if cfg!(debug_assertions) { 40 } else { 240 };
     for system in 0..systems {
         let input_terms: Vec<_> = (0..3).map(|_| random_term(&mut random)).collect();
         let count = 1 + random.index(7);
-        let output_terms: Vec<_> = (0..count).map(|_| random_term(&mut random)).collect();
-        let rules: Vec<_> = (0..6)
-            .map(|_| Rule { input: random.index(3), output: random.index(count), weight: random.uniform() })
+        // Every other system is a row of terms, which has a way of its own to its centroid.
+        let output_terms = if system % 2 == 0 {
+            random_partition(&mut random, count)
+        } else {
+            (0..count).map(|_| random_term(&mut random)).collect()
+        };
+        let operators = Operators {
+            implication: if system % 3 == 0 { Implication::Prod } else { Implication::Min },
+            aggregation: if system % 5 == 0 { Aggregation::Sum } else { Aggregation::Max },
+            ..Operators::default()
+        };
+        let index = |random: &mut Lcg, count: usize| {
+            let index = i16::try_from(random.index(count) + 1).unwrap();
+            if system % 7 == 0 && random.index(3) == 0 { -index } else { index }
+        };
+        let pairs: Vec<_> = (0..6).map(|_| [index(&mut random, 3), index(&mut random, count)]).collect();
+        let rules: Vec<_> = pairs
+            .iter()
+            .map(|pair| Rule {
+                inputs: &pair[..1],
+                outputs: &pair[1..],
+                weight: random.uniform(),
+                connective: Connective::And,
+            })
             .collect();
         let tables = MamdaniTables {
-            input_range: (-1.0, 1.0),
-            input_terms: &input_terms,
-            output_range: (-1.25, 1.0),
-            output_terms: &output_terms,
+            inputs: &[Variable { range: (-1.0, 1.0), terms: &input_terms }],
+            outputs: &[Variable { range: (-1.25, 1.0), terms: &output_terms }],
             rules: &rules,
+            operators,
+            defuzzifier: Defuzzifier::Centroid,
         };
-        let engine = Mamdani::try_new(tables).unwrap();
+        let engine = Curve::<f64>::try_new(&tables).unwrap();
         let x = 2.0 * random.uniform() - 1.0;
-        let error = (engine.evaluate(x) - sampled_centroid(&tables, x, 1_000_000)).abs();
+        let error = (engine.evaluate(x) - quadrature(&tables, x, 1_000_000)).abs();
         worst = worst.max(error);
         assert!(error < 1e-6, "system {system} at {x}: off by {error:e}: {tables:?}");
     }
@@ -112,28 +165,31 @@ fn centroid_agrees_with_quadrature_on_random_systems() {
 
 #[test]
 fn centroid_agrees_with_quadrature_on_the_thesis() {
-    let engine = THESIS.engine().unwrap();
+    let engine = Curve::<f64>::try_new(&THESIS).unwrap();
     for x in inputs(1.5, 12) {
-        let error = (engine.evaluate(x) - sampled_centroid(&THESIS.tables(), x, 1_000_000)).abs();
+        let error = (engine.evaluate(x) - quadrature(&THESIS, x, 1_000_000)).abs();
         assert!(error < 1e-9, "at {x}: off by {error:e}");
     }
 }
 
 #[test]
 fn sampling_at_101_points_moves_the_output() {
+    let sampled = MamdaniTables { defuzzifier: Defuzzifier::SampledCentroid(Sampling::Ends(101)), ..THESIS };
+    let y = Curve::<f64>::try_new(&sampled).unwrap().evaluate(-1e-12);
     // What a `.fis` tool with its usual 101 samples makes of the triangle (0.6666, 1, 1.334).
     let samples = (0_i16..=100).map(|k| -1.0 + 0.02 * f64::from(k));
     let (area, moment) = samples.fold((0.0, 0.0), |(area, moment), y| {
-        let degree = sampled_degree([0.6666, 1.0, 1.0, 1.334], y);
+        let degree = degree_of(&MembershipFunction::Triangle([0.6666, 1.0, 1.334]), y);
         (area + degree, moment + degree * y)
     });
-    assert!((moment / area - 0.8954).abs() < 1e-4, "sampled centroid {}", moment / area);
+    assert!((y - moment / area).abs() < 1e-12, "sampled centroid {y}, by hand {}", moment / area);
+    assert!((y - 0.8954).abs() < 1e-4, "sampled centroid {y}");
 }
 
 #[test]
 #[expect(clippy::float_cmp, reason = "zero, the clamped ends and the oddness are exact")]
 fn thesis_values() {
-    let engine = THESIS.engine().unwrap();
+    let engine = Curve::<f64>::try_new(&THESIS).unwrap();
     let near = |x: f64, y: f64, tolerance: f64| {
         let got = engine.evaluate(x);
         assert!((got - y).abs() <= tolerance, "f({x}) = {got}, not {y}");
@@ -159,7 +215,7 @@ fn thesis_values() {
 #[test]
 #[expect(clippy::float_cmp, reason = "zero, saturation and oddness are exact")]
 fn smooth_is_odd_strictly_falling_and_saturates() {
-    let engine = SMOOTH.engine().unwrap();
+    let engine = Curve::<f64>::try_new(&SMOOTH).unwrap();
     let values: Vec<f64> = inputs(1.0, 5000).map(|x| engine.evaluate(x)).collect();
     let steepest =
         values.windows(2).map(|y| 5000.0 * (y[1] - y[0])).fold((-f64::MAX, f64::MAX), |(m, n), slope| {
@@ -183,15 +239,17 @@ fn smooth_is_odd_strictly_falling_and_saturates() {
 
 #[test]
 fn changed_rules_change_the_output() {
-    let mut rules = THESIS.rules;
-    rules[5].output = 1;
-    let changed = Mamdani::try_new(MamdaniTables { rules: &rules, ..THESIS.tables() }).unwrap();
-    let unchanged = THESIS.engine().unwrap();
+    let unchanged = Curve::<f64>::try_new(&THESIS).unwrap();
+    let mut rules = THESIS.rules.to_vec();
+    rules[5].outputs = &[2];
+    let tables = MamdaniTables { rules: &rules, ..THESIS };
+    let changed = Curve::<f64>::try_new(&tables).unwrap();
     let distance = (changed.evaluate(0.25) - unchanged.evaluate(0.25)).abs();
     assert!(distance > 0.2, "PS to NM instead of NB moves the output by {distance}");
-    let mut rules = THESIS.rules;
+    let mut rules = THESIS.rules.to_vec();
     rules[6].weight = 0.5;
-    let changed = Mamdani::try_new(MamdaniTables { rules: &rules, ..THESIS.tables() }).unwrap();
+    let tables = MamdaniTables { rules: &rules, ..THESIS };
+    let changed = Curve::<f64>::try_new(&tables).unwrap();
     let distance = (changed.evaluate(0.8) - unchanged.evaluate(0.8)).abs();
     assert!(distance > 0.01, "half the weight moves the output by {distance}");
 }
@@ -199,58 +257,87 @@ fn changed_rules_change_the_output() {
 #[test]
 #[expect(clippy::float_cmp, reason = "the middle of the range is exact")]
 fn silence_gives_the_middle() {
-    let terms = [MembershipFunction::from_triangle([0.0, 0.5, 1.0])];
-    let spike = [MembershipFunction::from_triangle([4.0, 4.0, 4.0])];
-    let rules = [Rule { input: 0, output: 0, weight: 1.0 }];
     let tables = MamdaniTables {
-        input_range: (-1.0, 1.0),
-        input_terms: &terms,
-        output_range: (3.0, 7.0),
-        output_terms: &spike,
-        rules: &rules,
+        inputs: &[Variable { range: (-1.0, 1.0), terms: &[MembershipFunction::Triangle([0.0, 0.5, 1.0])] }],
+        outputs: &[Variable { range: (3.0, 7.0), terms: &[MembershipFunction::Triangle([4.0, 4.0, 4.0])] }],
+        rules: &[Rule { inputs: &[1], outputs: &[1], weight: 1.0, connective: Connective::And }],
+        operators: Operators::default(),
+        defuzzifier: Defuzzifier::Centroid,
     };
-    let engine = Mamdani::try_new(tables).unwrap();
+    let engine = Curve::<f64>::try_new(&tables).unwrap();
     assert_eq!(engine.evaluate(-0.5), 5.0, "no rule fires");
     assert_eq!(engine.evaluate(0.5), 5.0, "a singleton has no area");
+    assert_eq!(engine.evaluate(f64::NAN), 5.0, "NaN gives the middle");
 }
 
 #[test]
 fn bad_tables_are_refused_by_name() {
-    let good = THESIS.tables();
-    let refused = |tables: MamdaniTables<'_, f64>| Mamdani::try_new(tables).err();
-    let rule = |input, output, weight| [Rule { input, output, weight }];
-    let inverted = [MembershipFunction::from_breakpoints([0.0, 2.0, 1.0, 3.0])];
-    let broken = [MembershipFunction::from_triangle([0.0, f64::NAN, 1.0])];
-    let many = [MembershipFunction::from_triangle([0.0, 0.5, 1.0]); MAX_OUTPUT_TERMS + 1];
+    let (input, output) = (THESIS.inputs[0], THESIS.outputs[0]);
+    let with_input =
+        |input: Variable<'static, f64>| Mamdani::try_new(&MamdaniTables { inputs: &[input], ..THESIS }).err();
+    let with_output = |output: Variable<'static, f64>| {
+        Mamdani::try_new(&MamdaniTables { outputs: &[output], ..THESIS }).err()
+    };
+    let with_rule = |inputs: &[i16], outputs: &[i16], weight: f64| {
+        let rules = [Rule { inputs, outputs, weight, connective: Connective::And }];
+        Mamdani::try_new(&MamdaniTables { rules: &rules, ..THESIS }).err()
+    };
     let cases = [
-        (MamdaniTables { input_range: (1.0, -1.0), ..good }, FuzzyError::Inverted("input_range")),
-        (MamdaniTables { input_range: (0.0, f64::INFINITY), ..good }, FuzzyError::NonFinite("input_range")),
-        (MamdaniTables { output_range: (1.0, 1.0), ..good }, FuzzyError::Inverted("output_range")),
-        (MamdaniTables { input_terms: &[], ..good }, FuzzyError::Empty("input_terms")),
-        (MamdaniTables { output_terms: &[], ..good }, FuzzyError::Empty("output_terms")),
-        (MamdaniTables { output_terms: &many, ..good }, FuzzyError::TooMany("output_terms")),
-        (MamdaniTables { input_terms: &inverted, ..good }, FuzzyError::Inverted("input_terms")),
-        (MamdaniTables { output_terms: &broken, ..good }, FuzzyError::NonFinite("output_terms")),
-        (MamdaniTables { rules: &[], ..good }, FuzzyError::Empty("rules")),
-        (MamdaniTables { rules: &rule(8, 0, 1.0), ..good }, FuzzyError::OutOfRange("rules.input")),
-        (MamdaniTables { rules: &rule(0, 7, 1.0), ..good }, FuzzyError::OutOfRange("rules.output")),
-        (MamdaniTables { rules: &rule(0, 0, 1.5), ..good }, FuzzyError::OutOfRange("rules.weight")),
-        (MamdaniTables { rules: &rule(0, 0, f64::NAN), ..good }, FuzzyError::NonFinite("rules.weight")),
+        (with_input(Variable { range: (1.0, -1.0), ..input }), FuzzyError::Inverted("inputs.range")),
+        (
+            with_input(Variable { range: (0.0, f64::INFINITY), ..input }),
+            FuzzyError::NonFinite("inputs.range"),
+        ),
+        (with_input(Variable { range: (-1e308, 1e308), ..input }), FuzzyError::NonFinite("inputs.range")),
+        (with_input(Variable { terms: &[], ..input }), FuzzyError::Empty("inputs.terms")),
+        (
+            with_input(Variable { terms: &[MembershipFunction::Trapezoid([0.0, 2.0, 1.0, 3.0])], ..input }),
+            FuzzyError::Inverted("inputs.terms"),
+        ),
+        (with_output(Variable { range: (1.0, 1.0), ..output }), FuzzyError::Inverted("outputs.range")),
+        (with_output(Variable { terms: &[], ..output }), FuzzyError::Empty("outputs.terms")),
+        (
+            with_output(Variable { terms: &[MembershipFunction::Triangle([0.0, f64::NAN, 1.0])], ..output }),
+            FuzzyError::NonFinite("outputs.terms"),
+        ),
+        (
+            with_output(Variable { terms: &[MembershipFunction::Gaussian([1.0, 0.0]); 7], ..output }),
+            FuzzyError::Curved("outputs.terms"),
+        ),
+        (with_rule(&[9], &[1], 1.0), FuzzyError::OutOfRange("rules.inputs")),
+        (with_rule(&[-9], &[1], 1.0), FuzzyError::OutOfRange("rules.inputs")),
+        (with_rule(&[1, 1], &[1], 1.0), FuzzyError::Length("rules.inputs")),
+        (with_rule(&[1], &[8], 1.0), FuzzyError::OutOfRange("rules.outputs")),
+        (with_rule(&[1], &[], 1.0), FuzzyError::Length("rules.outputs")),
+        (with_rule(&[1], &[1], 1.5), FuzzyError::OutOfRange("rules.weight")),
+        (with_rule(&[1], &[1], f64::NAN), FuzzyError::NonFinite("rules.weight")),
+        (Mamdani::try_new(&MamdaniTables { rules: &[], ..THESIS }).err(), FuzzyError::Empty("rules")),
+        (Mamdani::try_new(&MamdaniTables { inputs: &[], ..THESIS }).err(), FuzzyError::Empty("inputs")),
+        (Mamdani::try_new(&MamdaniTables { outputs: &[], ..THESIS }).err(), FuzzyError::Empty("outputs")),
     ];
-    for (tables, error) in cases {
-        assert_eq!(refused(tables), Some(error), "{tables:?}");
+    for (refused, error) in cases {
+        assert_eq!(refused, Some(error), "another refusal");
     }
-    let engine = THESIS.engine().unwrap();
-    let even = Surface::<f64, 64>::from_engine(&engine).err();
+    let probor = Operators { aggregation: Aggregation::Probor, ..Operators::default() };
+    let refused = Mamdani::try_new(&MamdaniTables { operators: probor, ..THESIS }).err();
+    assert_eq!(refused, Some(FuzzyError::Curved("operators.aggregation")), "a product of pieces is no line");
+    let once = Defuzzifier::Bisector(Sampling::Ends(1));
+    let refused = Mamdani::try_new(&MamdaniTables { defuzzifier: once, ..THESIS }).err();
+    assert_eq!(refused, Some(FuzzyError::OutOfRange("defuzzifier.points")), "one sample is no range");
+    let even = Surface::<f64, 64>::from_engine(&Curve::<f64>::try_new(&THESIS).unwrap()).err();
     assert_eq!(even, Some(FuzzyError::OutOfRange("knots")), "an even number of knots");
+    assert_eq!(
+        Curve::<f64, 14>::try_new(&THESIS).err(),
+        Some(FuzzyError::TooMany("workspace")),
+        "eight input and seven output terms need 15 numbers"
+    );
 }
 
 #[test]
 fn single_precision_agrees_with_double() {
-    let (thesis, smooth) = (THESIS.cast::<f32>(), SMOOTH.cast::<f32>());
-    let pairs = [(thesis.engine().unwrap(), THESIS.tables()), (smooth.engine().unwrap(), SMOOTH.tables())];
-    for (single, tables) in pairs {
-        let double = Mamdani::try_new(tables).unwrap();
+    for (single, double) in [(&THESIS_F32, &THESIS), (&SMOOTH_F32, &SMOOTH)] {
+        let (single, double) =
+            (Curve::<f32>::try_new(single).unwrap(), Curve::<f64>::try_new(double).unwrap());
         let mut worst = 0.0_f64;
         for k in -1500_i16..=1500 {
             let x = f32::from(k) / 1024.0;
@@ -264,7 +351,7 @@ fn single_precision_agrees_with_double() {
 #[test]
 #[expect(clippy::float_cmp, reason = "oddness, zero and the clamped ends are exact")]
 fn surface_stays_close_to_its_engine() {
-    let engine = SMOOTH.engine().unwrap();
+    let engine = Curve::<f64>::try_new(&SMOOTH).unwrap();
     let surface = Surface::<f64, 65>::from_engine(&engine).unwrap();
     let mut worst = 0.0_f64;
     for x in inputs(1.1, 10_007) {
@@ -319,18 +406,21 @@ proptest! {
     ) {
         let terms = breakpoints.map(|mut p| {
             p.sort_by(f32::total_cmp);
-            MembershipFunction::from_breakpoints(p.map(|p| p * scale))
+            MembershipFunction::Trapezoid(p.map(|p| p * scale))
         });
-        let rules: Vec<_> =
-            weights.into_iter().enumerate().map(|(i, weight)| Rule { input: i, output: 3 - i, weight }).collect();
-        let engine = Mamdani::try_new(MamdaniTables {
-            input_range: (-2.0 * scale, 2.0 * scale),
-            input_terms: &terms,
-            output_range: (-scale, 1.5 * scale),
-            output_terms: &terms,
+        let rule = |input: &'static [i16], output: &'static [i16], weight| {
+            Rule { inputs: input, outputs: output, weight, connective: Connective::And }
+        };
+        let [w1, w2, w3, w4] = weights;
+        let rules = [rule(&[1], &[4], w1), rule(&[2], &[3], w2), rule(&[3], &[2], w3), rule(&[4], &[1], w4)];
+        let tables = MamdaniTables {
+            inputs: &[Variable { range: (-2.0 * scale, 2.0 * scale), terms: &terms }],
+            outputs: &[Variable { range: (-scale, 1.5 * scale), terms: &terms }],
             rules: &rules,
-        }).unwrap();
-        let y = engine.evaluate(x);
+            operators: Operators::default(),
+            defuzzifier: Defuzzifier::Centroid,
+        };
+        let y = Curve::<f32>::try_new(&tables).unwrap().evaluate(x);
         prop_assert!(y >= -scale && y <= 1.5 * scale, "f({x}) = {y}");
     }
 }

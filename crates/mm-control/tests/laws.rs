@@ -17,7 +17,7 @@ mod common {
 }
 
 use common::random::Random;
-use mm_control::fuzzy::{FuzzyError, Mamdani, SMOOTH, THESIS};
+use mm_control::fuzzy::{Curve, FuzzyError, MamdaniTables, SMOOTH, THESIS};
 use mm_control::laws::Misprints;
 use mm_control::{
     Bfsmc, ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference, SetupError,
@@ -199,7 +199,7 @@ fn bfsmc_is_odd_falling_and_continuous() {
     }
 }
 
-fn output(rules: Option<&Mamdani<'_, f64>>, gains: Gains<f64, 3>) -> [f64; 5] {
+fn output(rules: Option<&Curve<'_, f64>>, gains: Gains<f64, 3>) -> [f64; 5] {
     let robot = robot();
     let params =
         StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None };
@@ -218,18 +218,19 @@ fn output(rules: Option<&Mamdani<'_, f64>>, gains: Gains<f64, 3>) -> [f64; 5] {
 #[test]
 fn other_rules_give_another_torque() {
     let (_, gains) = law(LawKind::Bfsmc);
-    let smooth = output(Some(&SMOOTH.engine().unwrap()), gains);
+    let smooth = output(Some(&Curve::try_new(&SMOOTH).unwrap()), gains);
     let bits = |torque: [f64; 5]| torque.map(f64::to_bits);
     assert_eq!(bits(output(None, gains)), bits(smooth), "the default rules are SMOOTH");
 
     // The two rules next to zero answer as strongly as their outer neighbours.
-    let mut rules = SMOOTH;
-    (rules.rules[2].output, rules.rules[4].output) = (5, 1);
-    let (a, b) = (smooth, output(Some(&rules.engine().unwrap()), gains));
+    let mut rules = SMOOTH.rules.to_vec();
+    (rules[2].outputs, rules[4].outputs) = (&[6], &[2]);
+    let tables = MamdaniTables { rules: &rules, ..SMOOTH };
+    let (a, b) = (smooth, output(Some(&Curve::try_new(&tables).unwrap()), gains));
     for (channel, (a, b)) in a.iter().zip(b).enumerate() {
         assert!((a - b).abs() > 1e-3, "torque {channel} stays {a} under other rules");
     }
-    let thesis = Law::Bfsmc(Bfsmc::with_rules(&gains, &THESIS.engine().unwrap()).unwrap());
+    let thesis = Law::Bfsmc(Bfsmc::with_rules(&gains, &Curve::<f64>::try_new(&THESIS).unwrap()).unwrap());
     let third = gains.fuzzy.scaled(1.0 / 3.0);
     for (a, k) in thesis.authority().unwrap().channels().zip(third.channels()) {
         assert!((a - k).abs() < 1e-3 * k, "authority {a} at the weak edge of Appendix C, not {k}");
@@ -239,14 +240,15 @@ fn other_rules_give_another_torque() {
 #[test]
 fn rules_that_aid_the_motion_are_refused() {
     let (_, gains) = law(LawKind::Bfsmc);
-    let mut turned = SMOOTH;
-    for rule in &mut turned.rules {
-        rule.output = 6 - rule.output;
+    let mut turned = SMOOTH.rules.to_vec();
+    for rule in &mut turned {
+        rule.outputs = rule.inputs;
     }
-    let mut lopsided = SMOOTH;
-    lopsided.rules[3].output = 4;
+    let mut lopsided = SMOOTH.rules.to_vec();
+    lopsided[3].outputs = &[5];
     for (rules, what) in [(turned, "the wrong sign"), (lopsided, "an answer at zero")] {
-        let refused = Bfsmc::with_rules(&gains, &rules.engine().unwrap()).err();
+        let tables = MamdaniTables { rules: &rules, ..SMOOTH };
+        let refused = Bfsmc::with_rules(&gains, &Curve::<f64>::try_new(&tables).unwrap()).err();
         let expected = SetupError::Fuzzy(FuzzyError::OutOfRange("rules"));
         assert_eq!(refused, Some(expected), "rules with {what} are taken");
     }

@@ -15,7 +15,7 @@ mod common {
 }
 
 use common::plant::Plant;
-use mm_control::fuzzy::{FuzzyError, MembershipFunction, SMOOTH};
+use mm_control::fuzzy::{Bundled, Curve, FuzzyError, MamdaniTables, MembershipFunction, SMOOTH, Variable};
 use mm_control::{
     Bfsmc, ControlError, ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference,
     SetupError, StackParams,
@@ -103,16 +103,16 @@ fn an_observer_faster_than_its_clock_is_refused() {
 
 #[test]
 fn errors_read_as_sentences() {
-    let mut rules = SMOOTH;
-    rules.input_range = (f64::NAN, 1.0);
-    let fuzzy: SetupError = rules.engine().unwrap_err().into();
-    assert_eq!(fuzzy, SetupError::Fuzzy(FuzzyError::NonFinite("input_range")), "another error");
+    let inputs = [Variable { range: (f64::NAN, 1.0), ..SMOOTH.inputs[0] }];
+    let fuzzy: SetupError =
+        Curve::<f64>::try_new(&MamdaniTables { inputs: &inputs, ..SMOOTH }).unwrap_err().into();
+    assert_eq!(fuzzy, SetupError::Fuzzy(FuzzyError::NonFinite("inputs.range")), "another error");
     let texts = [
         (
             SetupError::from(ParamError::Negative("fuzzy_gain")).to_string(),
             "fuzzy_gain must be zero or above",
         ),
-        (fuzzy.to_string(), "fuzzy rule base: `input_range` is not finite"),
+        (fuzzy.to_string(), "fuzzy rule base: `inputs.range` is not finite"),
         (ControlError::NonFinite("velocity").to_string(), "velocity is infinite or not a number"),
         (ControlError::Overflow.to_string(), "the torque overflowed: an input is far beyond any robot"),
     ];
@@ -124,12 +124,13 @@ fn errors_read_as_sentences() {
     // A gain that is refused is refused by a law made by hand as well.
     let mut gains = params().gains;
     gains.fuzzy_scale.forward = -1.0;
-    let error = Bfsmc::with_rules(&gains, &SMOOTH.engine().unwrap()).err();
+    let error = Bfsmc::with_rules(&gains, &Curve::<f64>::try_new(&SMOOTH).unwrap()).err();
     assert_eq!(error, Some(SetupError::Param(ParamError::NonPositive("fuzzy_scale"))), "a negative scale");
     // Rules that answer nowhere make a law of no authority, not a refusal.
-    let mut mute = SMOOTH;
-    mute.output_terms = [MembershipFunction::from_triangle([-1.0, 0.0, 1.0]); 7];
-    let law = Law::Bfsmc(Bfsmc::with_rules(&params().gains, &mute.engine().unwrap()).unwrap());
+    let terms = [MembershipFunction::Triangle([-1.0, 0.0, 1.0]); 7];
+    let outputs = [Variable { terms: &terms, ..SMOOTH.outputs[0] }];
+    let mute = MamdaniTables { outputs: &outputs, ..SMOOTH };
+    let law = Law::Bfsmc(Bfsmc::with_rules(&params().gains, &Curve::<f64>::try_new(&mute).unwrap()).unwrap());
     assert!(law.authority().unwrap().channels().all(|k| k.abs() < 1e-9), "mute rules have an authority");
 }
 
@@ -145,7 +146,7 @@ fn at_rest(params: RobotParams<f64, 3>) -> Plant {
 }
 
 /// A closed loop of 200 periods with a stack in precision `T` and a plant in f64: torques and tips.
-fn run<T: Real>(kind: LawKind) -> Vec<(Torque<f64, 3>, Vector3<f64>)>
+fn run<T: Bundled>(kind: LawKind) -> Vec<(Torque<f64, 3>, Vector3<f64>)>
 where
     Robot<T, 3>: Mechanism<T, 3>,
 {

@@ -20,7 +20,7 @@ mod common {
 
 use common::plant::Plant;
 use common::random::Random;
-use mm_control::fuzzy::{FuzzySystem, SMOOTH, Surface, THESIS};
+use mm_control::fuzzy::{Curve, FuzzySystem, SMOOTH, Surface, THESIS};
 use mm_control::{
     ControlError, ControlStack, ControlState, Estimator, Gains, Input, LawKind, OuterParams, Reference,
     StackParams,
@@ -88,12 +88,13 @@ impl Twin {
                 -k.component_mul(&per_channel(&gains.boundary_layer).map(|x| x.clamp(-1.0, 1.0)))
             }
             LawKind::BfsmcThesis => {
-                let engine = THESIS.engine().unwrap();
+                let engine = Curve::<f64>::try_new(&THESIS).unwrap();
                 kf.component_mul(&per_channel(&gains.fuzzy_scale).map(|x| engine.evaluate(x)))
                     - k.component_mul(&sign)
             }
             _ => {
-                let surface = Surface::<f64, 65>::from_engine(&SMOOTH.engine().unwrap()).unwrap();
+                let surface =
+                    Surface::<f64, 65>::from_engine(&Curve::<f64>::try_new(&SMOOTH).unwrap()).unwrap();
                 kf.component_mul(&per_channel(&gains.fuzzy_scale).map(|x| surface.evaluate(x)))
             }
         }

@@ -45,6 +45,9 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
     /// The same number in double precision; exact.
     fn to_f64(self) -> f64;
+    /// A count as a number, rounded to the nearest; exact up to 2^24.
+    #[must_use]
+    fn from_u32(value: u32) -> Self;
     /// Sine and cosine of an angle in radians.
     ///
     /// A NaN or infinite angle gives two NaN.
@@ -59,6 +62,9 @@ pub trait Real:
     /// Power of Euler's number.
     #[must_use]
     fn exp(self) -> Self;
+    /// This number to a power.
+    #[must_use]
+    fn powf(self, exponent: Self) -> Self;
     /// Square root, correctly rounded; NaN for a negative number.
     #[must_use]
     fn sqrt(self) -> Self;
@@ -141,6 +147,10 @@ impl Real for f64 {
         self
     }
     #[inline]
+    fn from_u32(value: u32) -> Self {
+        Self::from(value)
+    }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         libm::sincos(self)
     }
@@ -155,6 +165,10 @@ impl Real for f64 {
     #[inline]
     fn exp(self) -> Self {
         libm::exp(self)
+    }
+    #[inline]
+    fn powf(self, exponent: Self) -> Self {
+        libm::pow(self, exponent)
     }
     #[inline]
     fn sqrt(self) -> Self {
@@ -202,6 +216,11 @@ impl Real for f32 {
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
+    #[expect(clippy::cast_precision_loss, reason = "rounding to single precision is what this does")]
+    #[inline]
+    fn from_u32(value: u32) -> Self {
+        value as Self
+    }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
         sin_cos_f32::sin_cos(self)
@@ -217,6 +236,10 @@ impl Real for f32 {
     #[inline]
     fn exp(self) -> Self {
         libm::expf(self)
+    }
+    #[inline]
+    fn powf(self, exponent: Self) -> Self {
+        libm::powf(self, exponent)
     }
     #[inline]
     fn sqrt(self) -> Self {

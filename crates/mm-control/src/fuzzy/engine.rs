@@ -1,235 +1,198 @@
-//! Mamdani inference with one input and one output over tables that stay where they are.
+//! Mamdani inference over tables that stay where they are.
 
-use super::centroid::{ClippedSet, centroid};
-use super::{FuzzyError, MembershipFunction};
+use super::activation::OutputSet;
+use super::firing::{Antecedent, degree_count, fuzzify};
+use super::tables::{Aggregation, Defuzzifier, Inference, MamdaniTables, Sampling, Variable, check_rules};
+use super::{FuzzyError, exact, sampled};
 use mm_model::Real;
 
-/// Largest number of output terms an engine takes; it bounds the stack that one evaluation needs.
-pub const MAX_OUTPUT_TERMS: usize = 16;
-
-/// A map from one number to one number that a control law can use: a rule engine or a table made from it.
-pub trait FuzzySystem<T> {
-    /// Output for the input `x`, which is taken at the nearest end of the range where it lies outside; 0 for NaN.
-    #[must_use]
-    fn evaluate(&self, x: T) -> T;
-    /// Lower and upper end of the input range.
-    #[must_use]
-    fn input_range(&self) -> (T, T);
-}
-
-/// One rule: IF the input is term `input` THEN the output is term `output`, with a `weight` in [0, 1].
+/// Mamdani inference: any number of inputs and outputs, over borrowed tables.
 ///
-/// The indices count from zero (a `.fis` file counts from one).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rule<T> {
-    /// Index of the input term.
-    pub input: usize,
-    /// Index of the output term.
-    pub output: usize,
-    /// Factor on the firing strength, in [0, 1].
-    pub weight: T,
-}
-
-/// What a rule engine is made of, borrowed; [`Mamdani::try_new`] checks it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MamdaniTables<'a, T> {
-    /// Ends of the input range; an input outside is taken at the nearer end.
-    pub input_range: (T, T),
-    /// Terms of the input.
-    pub input_terms: &'a [MembershipFunction<T>],
-    /// Ends of the output range, over which the centroid is taken.
-    pub output_range: (T, T),
-    /// Terms of the output, at most [`MAX_OUTPUT_TERMS`].
-    pub output_terms: &'a [MembershipFunction<T>],
-    /// The rules, at least one.
-    pub rules: &'a [Rule<T>],
-}
-
-/// The same with its arrays inside: `I` input terms, `O` output terms, `R` rules, for constants in flash.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RuleBase<T, const I: usize, const O: usize, const R: usize> {
-    /// Ends of the input range.
-    pub input_range: (T, T),
-    /// Terms of the input.
-    pub input_terms: [MembershipFunction<T>; I],
-    /// Ends of the output range.
-    pub output_range: (T, T),
-    /// Terms of the output.
-    pub output_terms: [MembershipFunction<T>; O],
-    /// The rules.
-    pub rules: [Rule<T>; R],
-}
-
-impl<T: Real, const I: usize, const O: usize, const R: usize> RuleBase<T, I, O, R> {
-    /// Borrows the arrays.
-    #[must_use]
-    pub fn tables(&self) -> MamdaniTables<'_, T> {
-        MamdaniTables {
-            input_range: self.input_range,
-            input_terms: &self.input_terms,
-            output_range: self.output_range,
-            output_terms: &self.output_terms,
-            rules: &self.rules,
-        }
-    }
-
-    /// Checks the arrays and makes an engine over them.
-    ///
-    /// # Errors
-    /// As [`Mamdani::try_new`].
-    pub fn engine(&self) -> Result<Mamdani<'_, T>, FuzzyError> {
-        Mamdani::try_new(self.tables())
-    }
-
-    /// The same rule base in another precision, each number rounded to the nearest of it.
-    #[must_use]
-    pub fn cast<U: Real>(&self) -> RuleBase<U, I, O, R> {
-        let to = |x: T| U::from_f64(x.to_f64());
-        RuleBase {
-            input_range: (to(self.input_range.0), to(self.input_range.1)),
-            input_terms: self.input_terms.map(|term| term.cast()),
-            output_range: (to(self.output_range.0), to(self.output_range.1)),
-            output_terms: self.output_terms.map(|term| term.cast()),
-            rules: self.rules.map(|Rule { input, output, weight }| Rule {
-                input,
-                output,
-                weight: to(weight),
-            }),
-        }
-    }
-}
-
-/// Mamdani inference of one output from one input: min implication, max aggregation, exact centroid.
+/// Equation: rule r fires with `w_r = weight_r * (mu_1(x_1) and mu_2(x_2) ...)`; output j is the centroid (or another
+/// [`Defuzzifier`]) of `m(y) = agg_r imp(w_r, mu_rj(y))` over the range of the output.
 ///
-/// Equation: `w_j = max over the rules of term j of weight mu_in(x)`, then
-/// `y = int y m(y) dy / int m(y) dy` with `m(y) = max_j min(w_j, mu_j(y))` over the output range.
-/// The integrals are exact: `m` is piecewise linear and every piece is integrated in closed form, where `.fis`
-/// tools sample it: 101 points move 0.8889, the output of Appendix C just below 0, to 0.8954.
+/// The exact centroid integrates every straight piece of `m` in closed form, where `.fis` tools sample it: 101 points
+/// move 0.8889, the output of Appendix C just below 0, to 0.8954.
 ///
-/// Convention: where no rule fires, or what fires has no area, the output is the middle of its range. An input
-/// outside the range counts as the nearest end. A rule base that is its own mirror image gives an exactly odd
-/// map, and exactly 0 at 0.
+/// Convention: every case has a defined result and none is NaN. An input outside its range counts as the nearer end;
+/// where no rule fires, or what fires has no area, and for a NaN input, an output is the middle of its range;
+/// [`Inference`] says which of it happened. With the exact centroid, a rule base that is its own mirror image gives an
+/// exactly odd map, and exactly 0 at 0.
 ///
-/// Cost: at most `4 n + 1` breakpoints and `n - 1` crossings between neighbouring ones for `n` firing output
-/// terms; no allocation, about 1 KiB of stack in `f64`. `cargo xtask bench-instructions` counts it.
+/// Cost: one degree a term, one pass over the rules and one over the firing output terms; the caller's workspace holds
+/// [`workspace_len`](Self::workspace_len) numbers, nothing is allocated. `cargo xtask bench-instructions` counts it.
 ///
 /// # Source
 /// E. H. Mamdani, S. Assilian, An experiment in linguistic synthesis with a fuzzy logic controller,
-/// Int. J. Man-Machine Studies 7 (1975) 1-13. The operators are those of Appendix C of the thesis.
+/// Int. J. Man-Machine Studies 7 (1975) 1-13. Operators and shapes are those of `.fis` files, version 2.0.
 ///
 /// # Examples
 /// ```
-/// use mm_control::fuzzy::{FuzzySystem, THESIS};
+/// use mm_control::fuzzy::{
+///     Connective, Defuzzifier, Mamdani, MamdaniTables, MembershipFunction, Operators, Rule, Variable,
+/// };
 ///
-/// let engine = THESIS.engine()?;
-/// assert_eq!(engine.evaluate(0.0), 0.0);
-/// assert!((engine.evaluate(-1.4) - 1.0 / 3.0).abs() < 1e-15);
+/// // A tip from service and food, both from 0 to 10; it lies in flash.
+/// static TIP: MamdaniTables<'static, f32> = MamdaniTables {
+///     inputs: &[
+///         Variable {
+///             range: (0.0, 10.0),
+///             terms: &[MembershipFunction::Gaussian([1.5, 0.0]), MembershipFunction::Gaussian([1.5, 10.0])],
+///         },
+///         Variable { range: (0.0, 10.0), terms: &[MembershipFunction::Trapezoid([0.0, 0.0, 1.0, 3.0])] },
+///     ],
+///     outputs: &[Variable {
+///         range: (0.0, 30.0),
+///         terms: &[
+///             MembershipFunction::Triangle([0.0, 5.0, 10.0]),
+///             MembershipFunction::Triangle([20.0, 25.0, 30.0]),
+///         ],
+///     }],
+///     rules: &[
+///         Rule { inputs: &[1, 1], outputs: &[1], weight: 1.0, connective: Connective::Or },
+///         Rule { inputs: &[2, -1], outputs: &[2], weight: 1.0, connective: Connective::And },
+///     ],
+///     operators: Operators {
+///         and: mm_control::fuzzy::And::Min,
+///         or: mm_control::fuzzy::Or::Max,
+///         implication: mm_control::fuzzy::Implication::Min,
+///         aggregation: mm_control::fuzzy::Aggregation::Max,
+///     },
+///     defuzzifier: Defuzzifier::Centroid,
+/// };
+/// let engine = Mamdani::try_new(&TIP)?;
+/// let (mut tip, mut workspace) = ([0.0], [0.0; 8]);
+/// let met = engine.infer(&[9.0, 8.0], &mut tip, &mut workspace)?;
+/// assert!(!met.clamped && !met.unfired);
+/// assert!((tip[0] - 25.0).abs() < 1e-4);
 /// # Ok::<(), mm_control::fuzzy::FuzzyError>(())
 /// ```
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mamdani<'a, T> {
-    tables: MamdaniTables<'a, T>,
-    middle: T,
-    half: T,
+    tables: &'a MamdaniTables<'a, T>,
+    degrees: usize,
+    strengths: usize,
 }
 
 impl<'a, T: Real> Mamdani<'a, T> {
     /// Checks the tables and takes them.
     ///
     /// # Errors
-    /// Naming the field of [`MamdaniTables`] (or `rules.input`, `rules.output`, `rules.weight`):
-    /// [`FuzzyError::Empty`] without terms or rules, [`FuzzyError::TooMany`] output terms,
-    /// [`FuzzyError::NonFinite`] numbers, [`FuzzyError::Inverted`] ranges or breakpoints, and
-    /// [`FuzzyError::OutOfRange`] for the index of a term that does not exist or a weight outside [0, 1].
-    pub fn try_new(tables: MamdaniTables<'a, T>) -> Result<Self, FuzzyError> {
-        check_variable(tables.input_range, "input_range", tables.input_terms, "input_terms")?;
-        check_variable(tables.output_range, "output_range", tables.output_terms, "output_terms")?;
-        if tables.output_terms.len() > MAX_OUTPUT_TERMS {
-            return Err(FuzzyError::TooMany("output_terms"));
+    /// Naming the field of [`MamdaniTables`] or of its parts: [`FuzzyError::Empty`] without variables, terms or rules,
+    /// [`FuzzyError::NonFinite`] numbers, [`FuzzyError::Inverted`] ranges or breakpoints, [`FuzzyError::Length`] for a rule
+    /// with another number of variables, [`FuzzyError::OutOfRange`] for the index of a term that does not exist, a weight
+    /// outside [0, 1], a width of 0 or fewer than 2 samples, and [`FuzzyError::Curved`] where the exact centroid is asked of a curved
+    /// output term or of the probabilistic sum.
+    pub fn try_new(tables: &'a MamdaniTables<'a, T>) -> Result<Self, FuzzyError> {
+        let MamdaniTables { inputs, outputs, rules, operators, defuzzifier } = tables;
+        if inputs.is_empty() {
+            return Err(FuzzyError::Empty("inputs"));
         }
-        if tables.rules.is_empty() {
-            return Err(FuzzyError::Empty("rules"));
+        if outputs.is_empty() {
+            return Err(FuzzyError::Empty("outputs"));
         }
-        for rule in tables.rules {
-            if rule.input >= tables.input_terms.len() {
-                return Err(FuzzyError::OutOfRange("rules.input"));
+        inputs.iter().try_for_each(|input| input.check("inputs.range", "inputs.terms"))?;
+        outputs.iter().try_for_each(|output| output.check("outputs.range", "outputs.terms"))?;
+        let counts = |variables: &'a [Variable<'a, T>]| variables.iter().map(|variable| variable.terms.len());
+        check_rules(rules, counts(inputs), counts(outputs))?;
+        match defuzzifier {
+            Defuzzifier::Centroid => {
+                if operators.aggregation == Aggregation::Probor {
+                    return Err(FuzzyError::Curved("operators.aggregation"));
+                }
+                let straight = |output: &Variable<'_, T>| {
+                    let (lo, hi) = output.range;
+                    output.terms.iter().all(|term| term.corners(lo, hi).is_some())
+                };
+                if !outputs.iter().all(straight) {
+                    return Err(FuzzyError::Curved("outputs.terms"));
+                }
             }
-            if rule.output >= tables.output_terms.len() {
-                return Err(FuzzyError::OutOfRange("rules.output"));
-            }
-            if !rule.weight.is_finite() {
-                return Err(FuzzyError::NonFinite("rules.weight"));
-            }
-            if rule.weight < T::ZERO || rule.weight > T::ONE {
-                return Err(FuzzyError::OutOfRange("rules.weight"));
-            }
+            Defuzzifier::SampledCentroid(sampling)
+            | Defuzzifier::Bisector(sampling)
+            | Defuzzifier::MeanOfMaximum(sampling)
+            | Defuzzifier::SmallestOfMaximum(sampling)
+            | Defuzzifier::LargestOfMaximum(sampling) => match sampling {
+                Sampling::Ends(0 | 1) | Sampling::Midpoints(0) => {
+                    return Err(FuzzyError::OutOfRange("defuzzifier.points"));
+                }
+                Sampling::Ends(_) | Sampling::Midpoints(_) => {}
+            },
         }
-        let (lo, hi) = tables.output_range;
-        Ok(Self { tables, middle: T::HALF * lo + T::HALF * hi, half: T::HALF * hi - T::HALF * lo })
+        let strengths = |(position, output): (usize, &Variable<'_, T>)| {
+            if OutputSet::merges(rules, position, *operators) { output.terms.len() } else { rules.len() }
+        };
+        let strengths = outputs.iter().enumerate().map(strengths).max().unwrap_or(0);
+        Ok(Self { tables, degrees: degree_count(inputs), strengths })
     }
 
     /// The tables the engine works on.
     #[must_use]
-    pub const fn tables(&self) -> &MamdaniTables<'a, T> {
-        &self.tables
+    pub const fn tables(&self) -> &'a MamdaniTables<'a, T> {
+        self.tables
     }
 
-    /// Firing strength of each output term at `x`: the largest weighted degree among its rules, in [0, 1].
-    fn firing(&self, x: T) -> [T; MAX_OUTPUT_TERMS] {
-        let mut strengths = [T::ZERO; MAX_OUTPUT_TERMS];
-        for rule in self.tables.rules {
-            let Some(term) = self.tables.input_terms.get(rule.input) else { continue };
-            let strength = rule.weight * term.degree(x);
-            if let Some(largest) = strengths.get_mut(rule.output) {
-                *largest = largest.max(strength);
+    /// Number of values that the workspace of [`infer`](Self::infer) needs.
+    #[must_use]
+    pub const fn workspace_len(&self) -> usize {
+        self.degrees.saturating_add(self.strengths)
+    }
+
+    /// Infers the outputs from the inputs.
+    ///
+    /// # Errors
+    /// [`FuzzyError::Length`], naming `inputs`, `outputs` or `workspace`; the outputs are then as they were.
+    #[inline]
+    pub fn infer(
+        &self,
+        inputs: &[T],
+        outputs: &mut [T],
+        workspace: &mut [T],
+    ) -> Result<Inference, FuzzyError> {
+        let tables = self.tables;
+        if outputs.len() != tables.outputs.len() {
+            return Err(FuzzyError::Length("outputs"));
+        }
+        let (degrees, strengths) = workspace
+            .split_at_mut_checked(self.degrees)
+            .filter(|(_, rest)| rest.len() >= self.strengths)
+            .ok_or(FuzzyError::Length("workspace"))?;
+        let mut met = fuzzify(tables.inputs, inputs, degrees)?;
+        for (position, (output, variable)) in outputs.iter_mut().zip(tables.outputs).enumerate() {
+            let value = if met.nan { None } else { self.output(position, variable, degrees, strengths) };
+            met.unfired |= value.is_none();
+            let (lo, hi) = variable.range;
+            *output = value.unwrap_or(T::HALF * lo + T::HALF * hi);
+        }
+        Ok(met)
+    }
+
+    /// One output, or `None` where nothing fires.
+    #[inline]
+    fn output(
+        &self,
+        position: usize,
+        variable: &Variable<'_, T>,
+        degrees: &[T],
+        strengths: &mut [T],
+    ) -> Option<T> {
+        let MamdaniTables { inputs, rules, operators, defuzzifier, .. } = *self.tables;
+        let antecedent = Antecedent { and: operators.and, or: operators.or };
+        let merged = OutputSet::merges(rules, position, operators);
+        let count = if merged { variable.terms.len() } else { rules.len() };
+        let strengths = strengths.get_mut(..count)?;
+        strengths.fill(T::ZERO);
+        for (number, rule) in rules.iter().enumerate() {
+            let Some(&index) = rule.outputs.get(position) else { continue };
+            let Some(term) = usize::from(index.unsigned_abs()).checked_sub(1) else { continue };
+            if let Some(slot) = strengths.get_mut(if merged { term } else { number }) {
+                *slot = slot.max(antecedent.strength(rule, inputs, degrees));
             }
         }
-        strengths
-    }
-
-    /// Centroid of the output terms cut off at their firing strengths; the middle of the range without any area.
-    fn defuzzify(&self, strengths: &[T; MAX_OUTPUT_TERMS]) -> T {
-        let mut sets = [ClippedSet::EMPTY; MAX_OUTPUT_TERMS];
-        let mut firing = 0;
-        let fired =
-            self.tables.output_terms.iter().zip(strengths).filter(|(_, strength)| **strength > T::ZERO);
-        for (slot, (term, strength)) in sets.iter_mut().zip(fired) {
-            *slot = ClippedSet::new(term, *strength, self.middle);
-            firing += 1;
+        let set = OutputSet::new(variable, rules, position, operators, (strengths, merged));
+        match defuzzifier {
+            Defuzzifier::Centroid => exact::centroid(&set),
+            _ => sampled::defuzzify(&set, defuzzifier),
         }
-        let offset = sets.get_mut(..firing).and_then(|sets| centroid(sets, self.half));
-        let (lo, hi) = self.tables.output_range;
-        offset.map_or(self.middle, |offset| (self.middle + offset).clamp_to(lo, hi))
     }
-}
-
-impl<T: Real> FuzzySystem<T> for Mamdani<'_, T> {
-    fn evaluate(&self, x: T) -> T {
-        let (lo, hi) = self.tables.input_range;
-        let x = x.clamp_to(lo, hi);
-        if x >= lo { self.defuzzify(&self.firing(x)) } else { T::ZERO }
-    }
-
-    fn input_range(&self) -> (T, T) {
-        self.tables.input_range
-    }
-}
-
-/// Checks one variable: a range with width and at least one term, every number finite and in order.
-fn check_variable<T: Real>(
-    (lo, hi): (T, T),
-    range: &'static str,
-    terms: &[MembershipFunction<T>],
-    name: &'static str,
-) -> Result<(), FuzzyError> {
-    if !(lo.is_finite() && hi.is_finite()) {
-        return Err(FuzzyError::NonFinite(range));
-    }
-    if lo >= hi {
-        return Err(FuzzyError::Inverted(range));
-    }
-    if terms.is_empty() {
-        return Err(FuzzyError::Empty(name));
-    }
-    terms.iter().try_for_each(|term| term.check(name))
 }

@@ -1,158 +1,328 @@
-//! The trapezoid as a membership function.
+//! Membership functions: how far a number belongs to a linguistic term.
 
 use super::FuzzyError;
 use mm_model::Real;
 
-/// A linguistic term: how far a number belongs to it, between 0 and 1, as a trapezoid.
+/// A linguistic term: the degree between 0 and 1 to which a number belongs to it.
 ///
-/// Equation: `mu(x) = max(0, min((x - a)/(b - a), 1, (d - x)/(d - c)))` with breakpoints `a <= b <= c <= d`.
+/// The parameters are those of a `.fis` file, in its order and in the unit of the variable.
 ///
-/// | name | meaning | unit |
+/// | variant | `.fis` | degree of x |
 /// |---|---|---|
-/// | `a`, `d` | feet: degree 0 up to `a` and from `d` on | of the variable |
-/// | `b`, `c` | shoulders: degree 1 between them, both included | of the variable |
+/// | `Triangle([a, b, c])` | `trimf` | rises from `a` to 1 at `b`, falls to 0 at `c` |
+/// | `Trapezoid([a, b, c, d])` | `trapmf` | rises from `a` to 1 at `b`, 1 up to `c`, falls to 0 at `d` |
+/// | `LinearS([a, b])` | `linsmf` | 0 up to `a`, 1 from `b` on |
+/// | `LinearZ([a, b])` | `linzmf` | 1 up to `a`, 0 from `b` on |
+/// | `Gaussian([s, c])` | `gaussmf` | `exp(-((x - c)/s)^2 / 2)` |
+/// | `Gaussian2([s1, c1, s2, c2])` | `gauss2mf` | the left side of the first times the right side of the second, each 1 beyond its centre |
+/// | `Bell([a, b, c])` | `gbellmf` | `1 / (1 + abs((x - c)/a)^(2 b))` |
+/// | `Sigmoid([a, c])` | `sigmf` | `1 / (1 + exp(-a (x - c)))` |
+/// | `SigmoidDifference([a1, c1, a2, c2])` | `dsigmf` | the magnitude of the difference of two sigmoids |
+/// | `SigmoidProduct([a1, c1, a2, c2])` | `psigmf` | the product of two sigmoids |
+/// | `S([a, b])` | `smf` | 0 up to `a`, two parabolas, 1 from `b` on |
+/// | `Z([a, b])` | `zmf` | 1 up to `a`, two parabolas, 0 from `b` on |
+/// | `Pi([a, b, c, d])` | `pimf` | `S([a, b])` times `Z([c, d])` |
 ///
-/// Convention: a triangle is a trapezoid with `b = c`. Where breakpoints coincide the side is vertical and the
-/// degree there is 1, so that `trimf [a b b]` and `trimf [a a b]` both reach 1 at the doubled breakpoint.
+/// Convention: where breakpoints coincide the side is vertical and the degree there is 1, so that both
+/// `Triangle([a, b, b])` and `Triangle([b, b, c])` reach 1 at the doubled breakpoint. An `S` or `Z` whose `a` is not
+/// below `b` is a step halfway between them.
+///
+/// Precision: the first four are exact up to one division; the others go through `exp` and `powf` of
+/// [`Real`], the same bits on every machine.
 ///
 /// # Examples
 /// ```
 /// use mm_control::fuzzy::MembershipFunction;
 ///
-/// let small = MembershipFunction::try_triangle(0.0, 0.25, 0.75)?;
+/// let small = MembershipFunction::Triangle([0.0, 0.25, 0.75]);
 /// assert_eq!(small.degree(0.125), 0.5);
 /// assert_eq!(small.degree(0.5), 0.5);
 /// assert_eq!(small.degree(0.75), 0.0);
-/// # Ok::<(), mm_control::fuzzy::FuzzyError>(())
+/// let near = MembershipFunction::Gaussian([0.5, 2.0]);
+/// assert_eq!(near.degree(2.0), 1.0);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MembershipFunction<T> {
-    a: T,
-    b: T,
-    c: T,
-    d: T,
-}
-
-impl<T: Copy> MembershipFunction<T> {
-    /// Takes a trapezoid as it is written, for tables in constants; [`Mamdani::try_new`] checks them.
-    ///
-    /// [`Mamdani::try_new`]: super::Mamdani::try_new
-    #[must_use]
-    pub const fn from_breakpoints([a, b, c, d]: [T; 4]) -> Self {
-        Self { a, b, c, d }
-    }
-
-    /// Takes a triangle with its feet at `a` and `d` and its peak at `b`, unchecked like
-    /// [`from_breakpoints`](Self::from_breakpoints).
-    #[must_use]
-    pub const fn from_triangle([a, b, d]: [T; 3]) -> Self {
-        Self { a, b, c: b, d }
-    }
-
-    /// The breakpoints (a, b, c, d), in the unit of the variable.
-    #[must_use]
-    pub const fn breakpoints(&self) -> [T; 4] {
-        [self.a, self.b, self.c, self.d]
-    }
+pub enum MembershipFunction<T> {
+    /// `trimf`: feet `a` and `c`, peak `b`.
+    Triangle([T; 3]),
+    /// `trapmf`: feet `a` and `d`, shoulders `b` and `c`.
+    Trapezoid([T; 4]),
+    /// `linsmf`: rises linearly from `a` to `b` and stays.
+    LinearS([T; 2]),
+    /// `linzmf`: falls linearly from `a` to `b` and stays.
+    LinearZ([T; 2]),
+    /// `gaussmf`: width `s`, centre `c`.
+    Gaussian([T; 2]),
+    /// `gauss2mf`: width and centre of the left side, then of the right side.
+    Gaussian2([T; 4]),
+    /// `gbellmf`: half-width `a`, steepness `b`, centre `c`.
+    Bell([T; 3]),
+    /// `sigmf`: slope `a`, centre `c`.
+    Sigmoid([T; 2]),
+    /// `dsigmf`: slope and centre of each of two sigmoids.
+    SigmoidDifference([T; 4]),
+    /// `psigmf`: slope and centre of each of two sigmoids.
+    SigmoidProduct([T; 4]),
+    /// `smf`: rises smoothly from `a` to `b`.
+    S([T; 2]),
+    /// `zmf`: falls smoothly from `a` to `b`.
+    Z([T; 2]),
+    /// `pimf`: rises smoothly from `a` to `b`, falls smoothly from `c` to `d`.
+    Pi([T; 4]),
 }
 
 impl<T: Real> MembershipFunction<T> {
-    /// Builds a trapezoid from its breakpoints, which must be finite and ordered `a <= b <= c <= d`.
-    ///
-    /// # Errors
-    /// [`FuzzyError::NonFinite`] or [`FuzzyError::Inverted`], both naming `breakpoints`.
-    pub fn try_trapezoid(a: T, b: T, c: T, d: T) -> Result<Self, FuzzyError> {
-        let mf = Self { a, b, c, d };
-        mf.check("breakpoints")?;
-        Ok(mf)
-    }
-
-    /// Builds a triangle with feet `a`, `d` and peak `b`; the trapezoid with `b = c`.
-    ///
-    /// # Errors
-    /// As [`try_trapezoid`](Self::try_trapezoid).
-    pub fn try_triangle(a: T, b: T, d: T) -> Result<Self, FuzzyError> {
-        Self::try_trapezoid(a, b, b, d)
-    }
-
     /// Degree in [0, 1] to which `x` belongs to this term; 0 for a NaN.
     ///
-    /// Cost: four comparisons and at most one division.
+    /// Cost: comparisons and at most one division for the piecewise-linear shapes.
     #[must_use]
     #[inline]
     pub fn degree(&self, x: T) -> T {
-        if x >= self.b {
-            if x <= self.c {
-                T::ONE
-            } else if x < self.d {
-                (self.d - x) / (self.d - self.c)
-            } else {
-                T::ZERO
+        match *self {
+            Self::Triangle([a, b, c]) => trapezoid(x, a, b, b, c),
+            Self::Trapezoid([a, b, c, d]) => trapezoid(x, a, b, c, d),
+            Self::LinearS([a, b]) => rising(x, a, b),
+            Self::LinearZ([a, b]) => rising(-x, -b, -a),
+            _ => self.curved_degree(x),
+        }
+    }
+
+    /// The shapes that are not piecewise linear; kept out of line, they are the rarer ones on a small machine.
+    #[inline(never)]
+    fn curved_degree(&self, x: T) -> T {
+        let degree = match *self {
+            Self::Gaussian([s, c]) => bell_curve(x, s, c),
+            Self::Gaussian2([s1, c1, s2, c2]) => {
+                let left = if x < c1 { bell_curve(x, s1, c1) } else { T::ONE };
+                let right = if x > c2 { bell_curve(x, s2, c2) } else { T::ONE };
+                left * right
             }
-        } else if x > self.a {
-            (x - self.a) / (self.b - self.a)
+            Self::Bell([a, b, c]) => T::ONE / (T::ONE + ((x - c) / a).abs().powf(b + b)),
+            Self::Sigmoid([a, c]) => sigmoid(x, a, c),
+            Self::SigmoidDifference([a1, c1, a2, c2]) => (sigmoid(x, a1, c1) - sigmoid(x, a2, c2)).abs(),
+            Self::SigmoidProduct([a1, c1, a2, c2]) => sigmoid(x, a1, c1) * sigmoid(x, a2, c2),
+            Self::S([a, b]) => parabolas(x, a, b),
+            Self::Z([a, b]) => parabolas(-x, -b, -a),
+            Self::Pi([a, b, c, d]) => parabolas(x, a, b) * parabolas(-x, -d, -c),
+            Self::Triangle(_) | Self::Trapezoid(_) | Self::LinearS(_) | Self::LinearZ(_) => T::ZERO,
+        };
+        if degree >= T::ZERO && x.abs() >= T::ZERO { degree } else { T::ZERO }
+    }
+
+    /// The parameters as a `.fis` file lists them.
+    #[must_use]
+    pub const fn parameters(&self) -> &[T] {
+        match self {
+            Self::Triangle(p) | Self::Bell(p) => p,
+            Self::Trapezoid(p)
+            | Self::Gaussian2(p)
+            | Self::SigmoidDifference(p)
+            | Self::SigmoidProduct(p)
+            | Self::Pi(p) => p,
+            Self::LinearS(p)
+            | Self::LinearZ(p)
+            | Self::Gaussian(p)
+            | Self::Sigmoid(p)
+            | Self::S(p)
+            | Self::Z(p) => p,
+        }
+    }
+
+    /// The breakpoints (a, b, c, d) of a piecewise-linear shape over the range [`lo`, `hi`]: feet and shoulders.
+    ///
+    /// A side that never ends is cut off where it no longer matters. `None` for a curved shape.
+    #[must_use]
+    pub fn corners(&self, lo: T, hi: T) -> Option<[T; 4]> {
+        match *self {
+            Self::Triangle([a, b, c]) => Some([a, b, b, c]),
+            Self::Trapezoid(corners) => Some(corners),
+            Self::LinearS([a, b]) => Some([a, b, b.max(hi), b.max(hi)]),
+            Self::LinearZ([a, b]) => Some([a.min(lo), a.min(lo), a, b]),
+            _ => None,
+        }
+    }
+
+    /// Checks the parameters, naming `field` in the error.
+    ///
+    /// # Errors
+    /// [`FuzzyError::NonFinite`] numbers, [`FuzzyError::Inverted`] breakpoints of a piecewise-linear shape, and
+    /// [`FuzzyError::OutOfRange`] for a width of zero.
+    pub fn check(&self, field: &'static str) -> Result<(), FuzzyError> {
+        if !self.parameters().iter().all(|p| p.is_finite()) {
+            return Err(FuzzyError::NonFinite(field));
+        }
+        match *self {
+            Self::Gaussian([s, _]) | Self::Bell([s, ..]) if s.abs() <= T::ZERO => {
+                Err(FuzzyError::OutOfRange(field))
+            }
+            Self::Gaussian2([s1, _, s2, _]) if s1.abs() <= T::ZERO || s2.abs() <= T::ZERO => {
+                Err(FuzzyError::OutOfRange(field))
+            }
+            Self::Triangle(_) | Self::Trapezoid(_) | Self::LinearS(_) | Self::LinearZ(_) => {
+                let ordered = self.parameters().is_sorted();
+                if ordered { Ok(()) } else { Err(FuzzyError::Inverted(field)) }
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+#[inline]
+fn trapezoid<T: Real>(x: T, a: T, b: T, c: T, d: T) -> T {
+    if x >= b {
+        if x <= c {
+            T::ONE
+        } else if x < d {
+            (d - x) / (d - c)
         } else {
             T::ZERO
         }
+    } else if x > a {
+        (x - a) / (b - a)
+    } else {
+        T::ZERO
     }
+}
 
-    /// The same breakpoints in another precision, each rounded to the nearest number of it.
-    #[must_use]
-    pub fn cast<U: Real>(&self) -> MembershipFunction<U> {
-        MembershipFunction::from_breakpoints(self.breakpoints().map(|p| U::from_f64(p.to_f64())))
+#[inline]
+fn rising<T: Real>(x: T, a: T, b: T) -> T {
+    if x >= b {
+        T::ONE
+    } else if x > a {
+        (x - a) / (b - a)
+    } else {
+        T::ZERO
     }
+}
 
-    /// Checks that the breakpoints are finite and ordered, naming `field` in the error.
-    pub(super) fn check(&self, field: &'static str) -> Result<(), FuzzyError> {
-        if !self.breakpoints().iter().all(|p| p.is_finite()) {
-            return Err(FuzzyError::NonFinite(field));
-        }
-        if self.a <= self.b && self.b <= self.c && self.c <= self.d {
-            Ok(())
-        } else {
-            Err(FuzzyError::Inverted(field))
-        }
+fn bell_curve<T: Real>(x: T, s: T, c: T) -> T {
+    let z = (x - c) / s;
+    (-T::HALF * z * z).exp()
+}
+
+fn sigmoid<T: Real>(x: T, a: T, c: T) -> T {
+    T::ONE / (T::ONE + (-(a * (x - c))).exp())
+}
+
+/// Two parabolas from 0 at `a` to 1 at `b`, or a step halfway between where `a` is not below `b`.
+fn parabolas<T: Real>(x: T, a: T, b: T) -> T {
+    let middle = T::HALF * a + T::HALF * b;
+    if a >= b {
+        return if x >= middle { T::ONE } else { T::ZERO };
+    }
+    if x >= b {
+        T::ONE
+    } else if x > middle {
+        let u = (b - x) / (b - a);
+        T::ONE - T::TWO * u * u
+    } else if x > a {
+        let u = (x - a) / (b - a);
+        T::TWO * u * u
+    } else {
+        T::ZERO
     }
 }
 
 #[cfg(test)]
 #[expect(clippy::float_cmp, reason = "the degrees asserted here are exact")]
 mod tests {
-    use super::{FuzzyError, MembershipFunction};
+    use super::{FuzzyError, MembershipFunction as Mf};
 
     #[test]
     fn doubled_breakpoint_belongs_to_the_term() {
-        let falling = MembershipFunction::try_triangle(0.0, 0.0, 0.25).unwrap();
-        let rising = MembershipFunction::try_triangle(-0.25, 0.0, 0.0).unwrap();
+        let falling = Mf::Triangle([0.0, 0.0, 0.25]);
+        let rising = Mf::Triangle([-0.25, 0.0, 0.0]);
         assert_eq!(falling.degree(0.0), 1.0, "trimf [0 0 0.25] at 0");
         assert_eq!(rising.degree(0.0), 1.0, "trimf [-0.25 0 0] at 0");
         assert_eq!(rising.degree(-0.0), 1.0, "negative zero is zero");
         assert_eq!(falling.degree(-f64::MIN_POSITIVE), 0.0, "left of a vertical side");
         assert_eq!(rising.degree(f64::MIN_POSITIVE), 0.0, "right of a vertical side");
-        let spike = MembershipFunction::try_trapezoid(1.0, 1.0, 1.0, 1.0).unwrap();
+        let spike = Mf::Trapezoid([1.0, 1.0, 1.0, 1.0]);
         assert_eq!((spike.degree(1.0), spike.degree(1.0 + f64::EPSILON)), (1.0, 0.0), "a singleton");
+        let (s, z) = (Mf::LinearS([1.0, 1.0]), Mf::LinearZ([1.0, 1.0]));
+        assert_eq!(
+            (s.degree(1.0), s.degree(0.99), z.degree(1.0), z.degree(1.01)),
+            (1.0, 0.0, 1.0, 0.0),
+            "steps"
+        );
     }
 
     #[test]
-    fn trapezoid_by_hand() {
-        let mf = MembershipFunction::try_trapezoid(-1.0_f32, 0.0, 2.0, 6.0).unwrap();
-        for (x, degree) in
-            [(-2.0, 0.0), (-1.0, 0.0), (-0.5, 0.5), (0.0, 1.0), (1.0, 1.0), (2.0, 1.0), (5.0, 0.25)]
-        {
-            assert_eq!(mf.degree(x), degree, "degree of {x}");
+    fn shapes_by_hand() {
+        let trapezoid = Mf::Trapezoid([-1.0_f32, 0.0, 2.0, 6.0]);
+        for (x, degree) in [
+            (-2.0, 0.0),
+            (-1.0, 0.0),
+            (-0.5, 0.5),
+            (0.0, 1.0),
+            (1.0, 1.0),
+            (2.0, 1.0),
+            (5.0, 0.25),
+            (6.0, 0.0),
+        ] {
+            assert_eq!(trapezoid.degree(x), degree, "degree of {x}");
         }
-        assert_eq!(mf.degree(6.0), 0.0, "the right foot");
-        assert_eq!(mf.degree(f32::NAN), 0.0, "NaN belongs nowhere");
-        assert_eq!(mf.degree(f32::INFINITY), 0.0, "infinity lies beyond the foot");
+        let cases: [(Mf<f64>, f64, f64); 16] = [
+            (Mf::LinearS([0.0, 4.0]), 1.0, 0.25),
+            (Mf::LinearZ([0.0, 4.0]), 1.0, 0.75),
+            (Mf::Gaussian([1.0, 0.0]), 1.0, 0.606_530_659_712_633_4),
+            (Mf::Gaussian2([1.0, 0.0, 2.0, 3.0]), 2.0, 1.0),
+            (Mf::Gaussian2([1.0, 0.0, 2.0, 3.0]), 5.0, 0.606_530_659_712_633_4),
+            (Mf::Gaussian2([1.0, 0.0, 2.0, 3.0]), -1.0, 0.606_530_659_712_633_4),
+            (Mf::Bell([2.0, 1.0, 0.0]), 2.0, 0.5),
+            (Mf::Bell([2.0, 2.0, 0.0]), 4.0, 1.0 / 17.0),
+            (Mf::Sigmoid([2.0, 1.0]), 1.0, 0.5),
+            (Mf::SigmoidDifference([1e3, 0.0, 1e3, 2.0]), 1.0, 1.0),
+            (Mf::SigmoidProduct([1e3, 0.0, -1e3, 2.0]), 1.0, 1.0),
+            (Mf::S([0.0, 4.0]), 1.0, 0.125),
+            (Mf::S([0.0, 4.0]), 3.0, 0.875),
+            (Mf::Z([0.0, 4.0]), 1.0, 0.875),
+            (Mf::Pi([0.0, 4.0, 5.0, 9.0]), 3.0, 0.875),
+            (Mf::S([3.0, 1.0]), 2.0, 1.0),
+        ];
+        for (shape, x, degree) in cases {
+            assert!((shape.degree(x) - degree).abs() < 1e-15, "{shape:?} at {x}: {}", shape.degree(x));
+        }
     }
 
     #[test]
-    fn refuses_disorder_and_nan() {
-        let refused = MembershipFunction::try_trapezoid(0.0, 2.0, 1.0, 3.0);
-        assert_eq!(refused, Err(FuzzyError::Inverted("breakpoints")), "b > c");
-        let refused = MembershipFunction::try_triangle(0.0, f64::NAN, 1.0);
-        assert_eq!(refused, Err(FuzzyError::NonFinite("breakpoints")), "NaN peak");
-        let refused = MembershipFunction::try_triangle(0.0, 1.0, f64::INFINITY);
-        assert_eq!(refused, Err(FuzzyError::NonFinite("breakpoints")), "infinite foot");
+    fn every_shape_is_zero_at_nan_and_bounded_far_away() {
+        let shapes = [
+            Mf::Triangle([0.0, 1.0, 2.0]),
+            Mf::Trapezoid([0.0, 1.0, 2.0, 3.0]),
+            Mf::LinearS([0.0, 1.0]),
+            Mf::LinearZ([0.0, 1.0]),
+            Mf::Gaussian([0.1, 0.0]),
+            Mf::Gaussian2([0.1, 0.0, 0.2, 1.0]),
+            Mf::Bell([0.5, -2.0, 0.0]),
+            Mf::Bell([0.5, 0.0, 0.0]),
+            Mf::Sigmoid([-40.0, 0.0]),
+            Mf::SigmoidDifference([40.0, 0.0, 40.0, 1.0]),
+            Mf::SigmoidProduct([40.0, 0.0, -40.0, 1.0]),
+            Mf::S([0.0, 1.0]),
+            Mf::Z([0.0, 1.0]),
+            Mf::Pi([0.0, 1.0, 2.0, 3.0]),
+        ];
+        for shape in shapes {
+            assert_eq!(shape.check("terms"), Ok(()), "{shape:?}");
+            assert_eq!(shape.degree(f64::NAN), 0.0, "{shape:?} at NaN");
+            for x in [f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 0.0, -0.0] {
+                let degree = shape.degree(x);
+                assert!((0.0..=1.0).contains(&degree), "{shape:?} at {x}: {degree}");
+            }
+        }
+    }
+
+    #[test]
+    fn refuses_disorder_nan_and_no_width() {
+        let refused = Mf::Trapezoid([0.0, 2.0, 1.0, 3.0]).check("terms");
+        assert_eq!(refused, Err(FuzzyError::Inverted("terms")), "b > c");
+        let refused = Mf::Triangle([0.0, f64::NAN, 1.0]).check("terms");
+        assert_eq!(refused, Err(FuzzyError::NonFinite("terms")), "NaN peak");
+        for flat in
+            [Mf::Gaussian([0.0, 1.0]), Mf::Gaussian2([1.0, 0.0, -0.0, 1.0]), Mf::Bell([0.0, 1.0, 1.0])]
+        {
+            assert_eq!(flat.check("terms"), Err(FuzzyError::OutOfRange("terms")), "{flat:?}");
+        }
     }
 }

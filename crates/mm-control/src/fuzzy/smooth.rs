@@ -1,10 +1,57 @@
 //! A monotone rule base: what the fuzzy switching term of the thesis is meant to do, without its jump.
 
-use super::{MembershipFunction, Rule, RuleBase};
+use super::{
+    Aggregation, And, Connective, Defuzzifier, Implication, MamdaniTables, MembershipFunction, Operators, Or,
+    Rule, Variable,
+};
 
-const THIRD: f64 = 1.0 / 3.0;
-const TWO_THIRDS: f64 = 2.0 / 3.0;
-const FOUR_THIRDS: f64 = 4.0 / 3.0;
+/// The tables in one precision; a literal is rounded to it once.
+macro_rules! tables {
+    () => {{
+        MamdaniTables {
+            inputs: &[Variable {
+                range: (-1.0, 1.0),
+                terms: &[
+                    MembershipFunction::Triangle([-1.0, -1.0, -0.6]),
+                    MembershipFunction::Triangle([-1.0, -0.6, -0.25]),
+                    MembershipFunction::Triangle([-0.6, -0.25, 0.0]),
+                    MembershipFunction::Triangle([-0.25, 0.0, 0.25]),
+                    MembershipFunction::Triangle([0.0, 0.25, 0.6]),
+                    MembershipFunction::Triangle([0.25, 0.6, 1.0]),
+                    MembershipFunction::Triangle([0.6, 1.0, 1.0]),
+                ],
+            }],
+            outputs: &[Variable {
+                range: (-4.0 / 3.0, 4.0 / 3.0),
+                terms: &[
+                    MembershipFunction::Triangle([-4.0 / 3.0, -1.0, -2.0 / 3.0]),
+                    MembershipFunction::Triangle([-1.0, -2.0 / 3.0, -1.0 / 3.0]),
+                    MembershipFunction::Triangle([-2.0 / 3.0, -1.0 / 3.0, 0.0]),
+                    MembershipFunction::Triangle([-1.0 / 3.0, 0.0, 1.0 / 3.0]),
+                    MembershipFunction::Triangle([0.0, 1.0 / 3.0, 2.0 / 3.0]),
+                    MembershipFunction::Triangle([1.0 / 3.0, 2.0 / 3.0, 1.0]),
+                    MembershipFunction::Triangle([2.0 / 3.0, 1.0, 4.0 / 3.0]),
+                ],
+            }],
+            rules: &[
+                Rule { inputs: &[1], outputs: &[7], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[2], outputs: &[6], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[3], outputs: &[5], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[4], outputs: &[4], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[5], outputs: &[3], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[6], outputs: &[2], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[7], outputs: &[1], weight: 1.0, connective: Connective::And },
+            ],
+            operators: Operators {
+                and: And::Min,
+                or: Or::Max,
+                implication: Implication::Min,
+                aggregation: Aggregation::Max,
+            },
+            defuzzifier: Defuzzifier::Centroid,
+        }
+    }};
+}
 
 /// The default rule base of the smooth fuzzy control law: seven terms a side, strictly falling from +1 to -1.
 ///
@@ -30,42 +77,15 @@ const FOUR_THIRDS: f64 = 4.0 / 3.0;
 ///
 /// # Examples
 /// ```
-/// use mm_control::fuzzy::{FuzzySystem, SMOOTH};
+/// use mm_control::fuzzy::{Curve, FuzzySystem, SMOOTH};
 ///
-/// let engine = SMOOTH.engine()?;
-/// assert_eq!(engine.evaluate(0.0), 0.0);
-/// assert!((engine.evaluate(1.0) + 1.0).abs() < 1e-15);
-/// assert!(engine.evaluate(0.2) < engine.evaluate(0.1));
+/// let curve = Curve::<f64>::try_new(&SMOOTH)?;
+/// assert_eq!(curve.evaluate(0.0), 0.0);
+/// assert!((curve.evaluate(1.0) + 1.0).abs() < 1e-15);
+/// assert!(curve.evaluate(0.2) < curve.evaluate(0.1));
 /// # Ok::<(), mm_control::fuzzy::FuzzyError>(())
 /// ```
-pub const SMOOTH: RuleBase<f64, 7, 7, 7> = RuleBase {
-    input_range: (-1.0, 1.0),
-    input_terms: [
-        MembershipFunction::from_triangle([-1.0, -1.0, -0.6]),
-        MembershipFunction::from_triangle([-1.0, -0.6, -0.25]),
-        MembershipFunction::from_triangle([-0.6, -0.25, 0.0]),
-        MembershipFunction::from_triangle([-0.25, 0.0, 0.25]),
-        MembershipFunction::from_triangle([0.0, 0.25, 0.6]),
-        MembershipFunction::from_triangle([0.25, 0.6, 1.0]),
-        MembershipFunction::from_triangle([0.6, 1.0, 1.0]),
-    ],
-    output_range: (-FOUR_THIRDS, FOUR_THIRDS),
-    output_terms: [
-        MembershipFunction::from_triangle([-FOUR_THIRDS, -1.0, -TWO_THIRDS]),
-        MembershipFunction::from_triangle([-1.0, -TWO_THIRDS, -THIRD]),
-        MembershipFunction::from_triangle([-TWO_THIRDS, -THIRD, 0.0]),
-        MembershipFunction::from_triangle([-THIRD, 0.0, THIRD]),
-        MembershipFunction::from_triangle([0.0, THIRD, TWO_THIRDS]),
-        MembershipFunction::from_triangle([THIRD, TWO_THIRDS, 1.0]),
-        MembershipFunction::from_triangle([TWO_THIRDS, 1.0, FOUR_THIRDS]),
-    ],
-    rules: [
-        Rule { input: 0, output: 6, weight: 1.0 },
-        Rule { input: 1, output: 5, weight: 1.0 },
-        Rule { input: 2, output: 4, weight: 1.0 },
-        Rule { input: 3, output: 3, weight: 1.0 },
-        Rule { input: 4, output: 2, weight: 1.0 },
-        Rule { input: 5, output: 1, weight: 1.0 },
-        Rule { input: 6, output: 0, weight: 1.0 },
-    ],
-};
+pub const SMOOTH: MamdaniTables<'static, f64> = tables!();
+
+/// The same in single precision.
+pub const SMOOTH_F32: MamdaniTables<'static, f32> = tables!();

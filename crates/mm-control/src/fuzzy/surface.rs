@@ -16,10 +16,9 @@ use mm_model::Real;
 ///
 /// # Examples
 /// ```
-/// use mm_control::fuzzy::{FuzzySystem, SMOOTH, Surface};
+/// use mm_control::fuzzy::{Curve, FuzzySystem, SMOOTH_F32, Surface};
 ///
-/// let rules = SMOOTH.cast::<f32>();
-/// let surface = Surface::<f32, 65>::from_engine(&rules.engine()?)?;
+/// let surface = Surface::<f32, 65>::from_engine(&Curve::<f32>::try_new(&SMOOTH_F32)?)?;
 /// assert_eq!(surface.evaluate(0.0), 0.0);
 /// assert_eq!(surface.evaluate(0.3), -surface.evaluate(-0.3));
 /// assert_eq!(surface.evaluate(7.0), surface.evaluate(1.0));

@@ -1,6 +1,59 @@
 //! The rule base of the thesis, number by number.
 
-use super::{MembershipFunction, Rule, RuleBase};
+use super::{
+    Aggregation, And, Connective, Defuzzifier, Implication, MamdaniTables, MembershipFunction, Operators, Or,
+    Rule, Variable,
+};
+
+/// The tables in one precision; a literal is rounded to it once.
+macro_rules! tables {
+    () => {{
+        MamdaniTables {
+            inputs: &[Variable {
+                range: (-1.4, 1.4),
+                terms: &[
+                    MembershipFunction::Trapezoid([-4.6, -1.4, -0.9667, -0.7003]),
+                    MembershipFunction::Triangle([-1.0, -0.667, -0.25]),
+                    MembershipFunction::Triangle([-0.667, -0.25, 0.0]),
+                    MembershipFunction::Triangle([-0.25, 0.0, 0.0]),
+                    MembershipFunction::Triangle([0.0, 0.0, 0.25]),
+                    MembershipFunction::Triangle([0.0, 0.25, 0.667]),
+                    MembershipFunction::Triangle([0.25, 0.667, 1.0]),
+                    MembershipFunction::Trapezoid([0.7003, 0.9667, 1.4, 4.6]),
+                ],
+            }],
+            outputs: &[Variable {
+                range: (-1.0, 1.0),
+                terms: &[
+                    MembershipFunction::Triangle([-1.333, -1.0, -0.6666]),
+                    MembershipFunction::Triangle([-1.0, -0.6666, -0.3334]),
+                    MembershipFunction::Triangle([-0.6666, -0.3334, 0.0]),
+                    MembershipFunction::Triangle([-0.3334, 0.0, 0.3334]),
+                    MembershipFunction::Triangle([0.0, 0.3334, 0.6666]),
+                    MembershipFunction::Triangle([0.3334, 0.6666, 1.0]),
+                    MembershipFunction::Triangle([0.6666, 1.0, 1.334]),
+                ],
+            }],
+            rules: &[
+                Rule { inputs: &[1], outputs: &[5], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[2], outputs: &[6], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[3], outputs: &[7], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[4], outputs: &[7], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[5], outputs: &[1], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[6], outputs: &[1], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[7], outputs: &[2], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[8], outputs: &[3], weight: 1.0, connective: Connective::And },
+            ],
+            operators: Operators {
+                and: And::Min,
+                or: Or::Max,
+                implication: Implication::Min,
+                aggregation: Aggregation::Max,
+            },
+            defuzzifier: Defuzzifier::Centroid,
+        }
+    }};
+}
 
 /// The fuzzy switching term of the thesis: Appendix C as printed, with its rules.
 ///
@@ -27,44 +80,14 @@ use super::{MembershipFunction, Rule, RuleBase};
 ///
 /// # Examples
 /// ```
-/// use mm_control::fuzzy::{FuzzySystem, THESIS};
+/// use mm_control::fuzzy::{Curve, FuzzySystem, THESIS_F32};
 ///
-/// let rules = THESIS.cast::<f32>();
-/// let engine = rules.engine()?;
-/// assert!(engine.evaluate(0.5) < 0.0);
-/// assert_eq!(engine.evaluate(9.0), engine.evaluate(1.4));
+/// let curve = Curve::<f32>::try_new(&THESIS_F32)?;
+/// assert!(curve.evaluate(0.5) < 0.0);
+/// assert_eq!(curve.evaluate(9.0), curve.evaluate(1.4));
 /// # Ok::<(), mm_control::fuzzy::FuzzyError>(())
 /// ```
-pub const THESIS: RuleBase<f64, 8, 7, 8> = RuleBase {
-    input_range: (-1.4, 1.4),
-    input_terms: [
-        MembershipFunction::from_breakpoints([-4.6, -1.4, -0.9667, -0.7003]),
-        MembershipFunction::from_triangle([-1.0, -0.667, -0.25]),
-        MembershipFunction::from_triangle([-0.667, -0.25, 0.0]),
-        MembershipFunction::from_triangle([-0.25, 0.0, 0.0]),
-        MembershipFunction::from_triangle([0.0, 0.0, 0.25]),
-        MembershipFunction::from_triangle([0.0, 0.25, 0.667]),
-        MembershipFunction::from_triangle([0.25, 0.667, 1.0]),
-        MembershipFunction::from_breakpoints([0.7003, 0.9667, 1.4, 4.6]),
-    ],
-    output_range: (-1.0, 1.0),
-    output_terms: [
-        MembershipFunction::from_triangle([-1.333, -1.0, -0.6666]),
-        MembershipFunction::from_triangle([-1.0, -0.6666, -0.3334]),
-        MembershipFunction::from_triangle([-0.6666, -0.3334, 0.0]),
-        MembershipFunction::from_triangle([-0.3334, 0.0, 0.3334]),
-        MembershipFunction::from_triangle([0.0, 0.3334, 0.6666]),
-        MembershipFunction::from_triangle([0.3334, 0.6666, 1.0]),
-        MembershipFunction::from_triangle([0.6666, 1.0, 1.334]),
-    ],
-    rules: [
-        Rule { input: 0, output: 4, weight: 1.0 },
-        Rule { input: 1, output: 5, weight: 1.0 },
-        Rule { input: 2, output: 6, weight: 1.0 },
-        Rule { input: 3, output: 6, weight: 1.0 },
-        Rule { input: 4, output: 0, weight: 1.0 },
-        Rule { input: 5, output: 0, weight: 1.0 },
-        Rule { input: 6, output: 1, weight: 1.0 },
-        Rule { input: 7, output: 2, weight: 1.0 },
-    ],
-};
+pub const THESIS: MamdaniTables<'static, f64> = tables!();
+
+/// The same in single precision, each number of Appendix C rounded once.
+pub const THESIS_F32: MamdaniTables<'static, f32> = tables!();

@@ -4,14 +4,15 @@ use mm_model::{Force, Real, Velocity};
 
 use super::{Gains, channel_zip};
 use crate::SetupError;
-use crate::fuzzy::{FuzzyError, FuzzySystem, Mamdani, SMOOTH, Surface};
+use crate::fuzzy::{Bundled, Curve, FuzzyError, FuzzySystem, Surface};
 
 /// Knots of the tabulated fuzzy surface.
 const KNOTS: usize = 65;
 
 /// The continuous law f = k_f phi(s / scale) - d_hat, with phi a fuzzy surface and d_hat a learned disturbance.
 ///
-/// phi is a Mamdani system tabulated at construction that never aids s: s phi(s) <= 0, phi(0) = 0. The default, [`SMOOTH`], is odd and
+/// phi is a Mamdani system tabulated at construction that never aids s: s phi(s) <= 0, phi(0) = 0. The default,
+/// [`SMOOTH`](crate::fuzzy::SMOOTH), is odd and
 /// falls monotonely as well. d_hat comes from a momentum observer with bandwidth L, a projection on |d_hat_i| <= limit_i and
 /// anti-windup: the sum of everything that the nominal model does not account for.
 ///
@@ -45,15 +46,18 @@ pub struct Bfsmc<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Bfsmc<T, N> {
-    pub(super) fn try_new(gains: &Gains<T, N>) -> Result<Self, SetupError> {
-        Self::with_rules(gains, &SMOOTH.cast::<T>().engine()?)
+    pub(super) fn try_new(gains: &Gains<T, N>) -> Result<Self, SetupError>
+    where
+        T: Bundled,
+    {
+        Self::with_rules(gains, &Curve::<T>::try_new(T::SMOOTH)?)
     }
 
     /// The law with a rule base of the user's own. Its input range is what `s / scale` is clamped to.
     ///
     /// # Errors
     /// A gain, a rule base that cannot be tabulated, or one that aids s somewhere: `rules` out of range.
-    pub fn with_rules(gains: &Gains<T, N>, rules: &Mamdani<'_, T>) -> Result<Self, SetupError> {
+    pub fn with_rules(gains: &Gains<T, N>, rules: &impl FuzzySystem<T>) -> Result<Self, SetupError> {
         gains.check()?;
         let surface = Surface::from_engine(rules)?;
         if !opposes(&surface) {

@@ -4,7 +4,7 @@ use mm_model::{Force, Real, RobotParams, Velocity};
 
 use super::{Gains, RobustForce, channel_zip};
 use crate::SetupError;
-use crate::fuzzy::{FuzzySystem, RuleBase, THESIS};
+use crate::fuzzy::{Bundled, Curve, FuzzySystem};
 
 /// Readings of the printed equations that contradict its proof, to see what they do. None by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -24,26 +24,27 @@ pub struct Misprints {
 ///
 /// [`Misprints`] puts back what the derivation here corrects; with them no reaching condition holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BfsmcThesis<T, const N: usize> {
+pub struct BfsmcThesis<T: 'static, const N: usize> {
     gain: Force<T, N>,
     fuzzy_gain: Force<T, N>,
     per_scale: Velocity<T, N>,
-    rules: RuleBase<T, 8, 7, 8>,
+    rules: Curve<'static, T>,
     misprints: Misprints,
     /// 1/r and l/r, half the track over the wheel's radius: forces of torques at the wheels.
     wheels: (T, T),
 }
 
 impl<T: Real, const N: usize> BfsmcThesis<T, N> {
-    pub(super) fn try_new(robot: &RobotParams<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError> {
-        let rules = THESIS.cast::<T>();
-        rules.engine()?;
+    pub(super) fn try_new(robot: &RobotParams<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError>
+    where
+        T: Bundled,
+    {
         let per_radius = T::ONE / robot.wheel_radius;
         Ok(Self {
             gain: gains.switching,
             fuzzy_gain: gains.fuzzy,
             per_scale: gains.fuzzy_scale.map(|scale| T::ONE / scale),
-            rules,
+            rules: Curve::try_new(T::THESIS)?,
             misprints: gains.misprints,
             wheels: (per_radius, T::HALF * robot.track_width * per_radius),
         })
@@ -57,10 +58,7 @@ impl<T: Real, const N: usize> BfsmcThesis<T, N> {
     #[inline]
     pub(super) fn force(&self, s: &Velocity<T, N>) -> RobustForce<T, N> {
         let scaled = s.zip(self.per_scale, |s, w| s * w);
-        // Checked at construction: the engine is always there.
-        let fuzzy = self.rules.engine().map_or(Force::zero(), |engine| {
-            channel_zip(&scaled, &self.fuzzy_gain, |x, k| k * engine.evaluate(x))
-        });
+        let fuzzy = channel_zip(&scaled, &self.fuzzy_gain, |x, k| k * self.rules.evaluate(x));
         let switching = channel_zip(s, &self.gain, |s, k| -(k * s.sign()));
         RobustForce { total: self.misprinted(switching.plus(fuzzy)), fuzzy: self.misprinted(fuzzy) }
     }

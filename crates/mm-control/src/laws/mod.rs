@@ -51,6 +51,7 @@ pub(crate) use tracking::{Drive, Memory, Tracking};
 use mm_model::{Force, Mechanism, Real, Robot, Velocity};
 
 use crate::SetupError;
+use crate::fuzzy::Bundled;
 
 /// The laws by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -162,7 +163,10 @@ where
     ///
     /// # Errors
     /// The first gain that the law cannot work with.
-    pub fn try_new(kind: LawKind, robot: &Robot<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError> {
+    pub fn try_new(kind: LawKind, robot: &Robot<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError>
+    where
+        T: Bundled,
+    {
         gains.check()?;
         Ok(match kind {
             LawKind::Bsmc => Self::Bsmc(Bsmc::try_new(gains)?),
