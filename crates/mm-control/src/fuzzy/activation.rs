@@ -1,7 +1,7 @@
 //! The shaped output terms of one output: what the aggregation joins.
 
 use super::MembershipFunction;
-use super::tables::{Aggregation, Implication, Operators, Rule, Variable};
+use super::tables::{Aggregation, Implication, MamdaniTables, Operators, Rule, Variable};
 use mm_model::Real;
 
 /// A term, or its complement, that fired with a strength above zero.
@@ -27,21 +27,20 @@ pub(super) struct OutputSet<'a, T> {
 }
 
 impl<'a, T: Real> OutputSet<'a, T> {
-    /// Whether the rules of a term may be merged to their strongest for this output.
-    pub(super) fn merges(rules: &[Rule<'_, T>], output: usize, operators: Operators) -> bool {
-        let complement = |rule: &Rule<'_, T>| rule.outputs.get(output).is_some_and(|&index| index < 0);
+    /// Whether the rules of a term may be merged to their strongest.
+    pub(super) fn merges(rules: &[Rule<'_, T>], operators: Operators) -> bool {
+        let complement = |rule: &Rule<'_, T>| rule.outputs.iter().any(|&index| index < 0);
         operators.aggregation == Aggregation::Max && !rules.iter().any(complement)
     }
 
     pub(super) const fn new(
         variable: &'a Variable<'a, T>,
-        rules: &'a [Rule<'a, T>],
+        tables: &MamdaniTables<'a, T>,
         output: usize,
-        operators: Operators,
         strengths: (&'a [T], bool),
     ) -> Self {
         let (strengths, merged) = strengths;
-        Self { variable, operators, rules, output, merged, strengths }
+        Self { variable, operators: tables.operators, rules: tables.rules, output, merged, strengths }
     }
 
     /// Whether there is one strength a term, in the order of the terms.
@@ -52,6 +51,7 @@ impl<'a, T: Real> OutputSet<'a, T> {
     /// The terms that fired.
     pub(super) fn activations(&self) -> impl Iterator<Item = Activation<'a, T>> + Clone + use<'a, T> {
         let Self { variable, rules, output, merged, .. } = *self;
+        // Beyond the terms or rules of this output the strengths are zero.
         let named = move |(position, &strength): (usize, &T)| {
             if !(strength > T::ZERO) {
                 return None;

@@ -1,6 +1,7 @@
 //! A system of one input and one output as a function of a number.
 
-use super::{FuzzyError, Mamdani, MamdaniTables};
+use super::firing::{clamped, strength_of_one};
+use super::{FuzzyError, Inference, Mamdani, MamdaniTables, Variable};
 use mm_model::Real;
 
 /// A map from one number to one number that a control law can use: a rule engine or a table made from it.
@@ -26,10 +27,10 @@ pub trait FuzzySystem<T> {
 /// # Ok::<(), mm_control::fuzzy::FuzzyError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Curve<'a, T, const WORK: usize = 32> {
+pub struct Curve<'a, T, const WORK: usize = 16> {
     engine: Mamdani<'a, T>,
-    input_range: (T, T),
-    middle: T,
+    input: Variable<'a, T>,
+    output: Variable<'a, T>,
 }
 
 impl<'a, T: Real, const WORK: usize> Curve<'a, T, WORK> {
@@ -45,8 +46,7 @@ impl<'a, T: Real, const WORK: usize> Curve<'a, T, WORK> {
         if engine.workspace_len() > WORK {
             return Err(FuzzyError::TooMany("workspace"));
         }
-        let (lo, hi) = output.range;
-        Ok(Self { engine, input_range: input.range, middle: T::HALF * lo + T::HALF * hi })
+        Ok(Self { engine, input: *input, output: *output })
     }
 
     /// The engine behind it.
@@ -59,14 +59,16 @@ impl<'a, T: Real, const WORK: usize> Curve<'a, T, WORK> {
 impl<T: Real, const WORK: usize> FuzzySystem<T> for Curve<'_, T, WORK> {
     #[inline]
     fn evaluate(&self, x: T) -> T {
-        let (mut output, mut workspace) = ([self.middle], [T::ZERO; WORK]);
-        // The lengths were checked at construction, so there is nothing left to refuse.
-        let _met = self.engine.infer(&[x], &mut output, &mut workspace);
-        let [y] = output;
-        y
+        let mut strengths = [T::ZERO; WORK];
+        let inferred = clamped(x, self.input.range, &mut Inference::default()).and_then(|x| {
+            let terms = self.input.terms;
+            self.engine.output(0, &self.output, &mut strengths, |rule| strength_of_one(rule, terms, x))
+        });
+        let (lo, hi) = self.output.range;
+        inferred.unwrap_or(T::HALF * lo + T::HALF * hi)
     }
 
     fn input_range(&self) -> (T, T) {
-        self.input_range
+        self.input.range
     }
 }

@@ -1,8 +1,10 @@
 //! Mamdani inference over tables that stay where they are.
 
 use super::activation::OutputSet;
-use super::firing::{Antecedent, degree_count, fuzzify};
-use super::tables::{Aggregation, Defuzzifier, Inference, MamdaniTables, Sampling, Variable, check_rules};
+use super::firing::{Antecedent, clamped, degree_count, fuzzify, strength_of_one};
+use super::tables::{
+    Aggregation, Defuzzifier, Inference, MamdaniTables, Rule, Sampling, Variable, check_rules,
+};
 use super::{FuzzyError, exact, sampled};
 use mm_model::Real;
 
@@ -72,6 +74,8 @@ pub struct Mamdani<'a, T> {
     tables: &'a MamdaniTables<'a, T>,
     degrees: usize,
     strengths: usize,
+    /// Whether the rules of a term are merged to their strongest.
+    merged: bool,
 }
 
 impl<'a, T: Real> Mamdani<'a, T> {
@@ -119,11 +123,10 @@ impl<'a, T: Real> Mamdani<'a, T> {
                 Sampling::Ends(_) | Sampling::Midpoints(_) => {}
             },
         }
-        let strengths = |(position, output): (usize, &Variable<'_, T>)| {
-            if OutputSet::merges(rules, position, *operators) { output.terms.len() } else { rules.len() }
-        };
-        let strengths = outputs.iter().enumerate().map(strengths).max().unwrap_or(0);
-        Ok(Self { tables, degrees: degree_count(inputs), strengths })
+        let merged = OutputSet::merges(rules, *operators);
+        let terms = outputs.iter().map(|output| output.terms.len()).max().unwrap_or(0);
+        let strengths = if merged { terms } else { rules.len() };
+        Ok(Self { tables, degrees: degree_count(inputs), strengths, merged })
     }
 
     /// The tables the engine works on.
@@ -150,6 +153,9 @@ impl<'a, T: Real> Mamdani<'a, T> {
         workspace: &mut [T],
     ) -> Result<Inference, FuzzyError> {
         let tables = self.tables;
+        if inputs.len() != tables.inputs.len() {
+            return Err(FuzzyError::Length("inputs"));
+        }
         if outputs.len() != tables.outputs.len() {
             return Err(FuzzyError::Length("outputs"));
         }
@@ -157,42 +163,65 @@ impl<'a, T: Real> Mamdani<'a, T> {
             .split_at_mut_checked(self.degrees)
             .filter(|(_, rest)| rest.len() >= self.strengths)
             .ok_or(FuzzyError::Length("workspace"))?;
+        if let ([variable], [x]) = (tables.inputs, inputs) {
+            let mut met = Inference::default();
+            let x = clamped(*x, variable.range, &mut met);
+            self.outputs(outputs, strengths, &mut met, |rule| match x {
+                Some(x) => strength_of_one(rule, variable.terms, x),
+                None => T::ZERO,
+            });
+            return Ok(met);
+        }
         let mut met = fuzzify(tables.inputs, inputs, degrees)?;
-        for (position, (output, variable)) in outputs.iter_mut().zip(tables.outputs).enumerate() {
-            let value = if met.nan { None } else { self.output(position, variable, degrees, strengths) };
+        let antecedent = Antecedent { and: tables.operators.and, or: tables.operators.or };
+        self.outputs(outputs, strengths, &mut met, |rule| antecedent.strength(rule, tables.inputs, degrees));
+        Ok(met)
+    }
+
+    /// All outputs, from the firing strengths of the rules.
+    #[inline]
+    fn outputs(
+        &self,
+        outputs: &mut [T],
+        strengths: &mut [T],
+        met: &mut Inference,
+        strength: impl Fn(&Rule<'_, T>) -> T,
+    ) {
+        for (position, (output, variable)) in outputs.iter_mut().zip(self.tables.outputs).enumerate() {
+            strengths.fill(T::ZERO);
+            let value = if met.nan { None } else { self.output(position, variable, strengths, &strength) };
             met.unfired |= value.is_none();
             let (lo, hi) = variable.range;
             *output = value.unwrap_or(T::HALF * lo + T::HALF * hi);
         }
-        Ok(met)
     }
 
-    /// One output, or `None` where nothing fires.
+    /// One output, or `None` where nothing fires; `strengths` comes in as zeros.
     #[inline]
-    fn output(
+    pub(super) fn output(
         &self,
         position: usize,
         variable: &Variable<'_, T>,
-        degrees: &[T],
         strengths: &mut [T],
+        strength: impl Fn(&Rule<'_, T>) -> T,
     ) -> Option<T> {
-        let MamdaniTables { inputs, rules, operators, defuzzifier, .. } = *self.tables;
-        let antecedent = Antecedent { and: operators.and, or: operators.or };
-        let merged = OutputSet::merges(rules, position, operators);
-        let count = if merged { variable.terms.len() } else { rules.len() };
-        let strengths = strengths.get_mut(..count)?;
-        strengths.fill(T::ZERO);
-        for (number, rule) in rules.iter().enumerate() {
-            let Some(&index) = rule.outputs.get(position) else { continue };
-            let Some(term) = usize::from(index.unsigned_abs()).checked_sub(1) else { continue };
-            if let Some(slot) = strengths.get_mut(if merged { term } else { number }) {
-                *slot = slot.max(antecedent.strength(rule, inputs, degrees));
+        let tables = self.tables;
+        for (number, rule) in tables.rules.iter().enumerate() {
+            let strength = strength(rule);
+            if !(strength > T::ZERO) {
+                continue;
+            }
+            let term = rule.outputs.get(position).map_or(0, |index| usize::from(index.unsigned_abs()));
+            // A rule that leaves this output alone has the term 0 and with it no slot.
+            let slot = if self.merged || term == 0 { term.wrapping_sub(1) } else { number };
+            if let Some(slot) = strengths.get_mut(slot) {
+                *slot = slot.max(strength);
             }
         }
-        let set = OutputSet::new(variable, rules, position, operators, (strengths, merged));
-        match defuzzifier {
+        let set = OutputSet::new(variable, tables, position, (strengths, self.merged));
+        match tables.defuzzifier {
             Defuzzifier::Centroid => exact::centroid(&set),
-            _ => sampled::defuzzify(&set, defuzzifier),
+            defuzzifier => sampled::defuzzify(&set, defuzzifier),
         }
     }
 }

@@ -1,43 +1,67 @@
 //! How strongly each rule fires.
 
 use super::tables::{And, Connective, Or, Rule, Variable};
-use super::{FuzzyError, Inference};
+use super::{FuzzyError, Inference, MembershipFunction};
 use mm_model::Real;
 
-/// Number of degrees that the inputs need: one for each of their terms.
+/// Number of degrees that the inputs need: one for each of their terms; none for a single input.
 pub(super) fn degree_count<T>(inputs: &[Variable<'_, T>]) -> usize {
-    inputs.iter().map(|input| input.terms.len()).sum()
+    if inputs.len() == 1 { 0 } else { inputs.iter().map(|input| input.terms.len()).sum() }
+}
+
+/// Takes a number at the nearer end of a range where it is outside; `None` for NaN.
+#[inline]
+pub(super) fn clamped<T: Real>(x: T, (lo, hi): (T, T), met: &mut Inference) -> Option<T> {
+    if x > hi {
+        met.clamped = true;
+        Some(hi)
+    } else if x >= lo {
+        Some(x)
+    } else if x < lo {
+        met.clamped = true;
+        Some(lo)
+    } else {
+        met.nan = true;
+        None
+    }
+}
+
+/// Firing strength of a rule of one input, straight from the term, in [0, 1].
+#[inline]
+pub(super) fn strength_of_one<T: Real>(rule: &Rule<'_, T>, terms: &[MembershipFunction<T>], x: T) -> T {
+    let Some(&index) = rule.inputs.first() else { return T::ZERO };
+    let term = usize::try_from(index).ok().and_then(|index| terms.get(index.wrapping_sub(1)));
+    let degree = match term {
+        Some(term) => term.degree(x),
+        None => rare_degree(rule, index, terms, x),
+    };
+    rule.weight * degree
+}
+
+/// The same for what is neither a term nor missing: a term negated, or none at all.
+#[inline(never)]
+fn rare_degree<T: Real>(rule: &Rule<'_, T>, index: i16, terms: &[MembershipFunction<T>], x: T) -> T {
+    match usize::from(index.unsigned_abs()).checked_sub(1).map(|position| terms.get(position)) {
+        Some(Some(term)) => T::ONE - term.degree(x),
+        None if rule.connective == Connective::And => T::ONE,
+        _ => T::ZERO,
+    }
 }
 
 /// Writes the degree of every term of every input into `degrees`, in order, and says what it met.
 ///
 /// # Errors
-/// [`FuzzyError::Length`] (`inputs`) unless there is one number for each input.
+/// [`FuzzyError::Length`] (`workspace`) where `degrees` is too short.
 #[inline]
 pub(super) fn fuzzify<T: Real>(
     variables: &[Variable<'_, T>],
     inputs: &[T],
     degrees: &mut [T],
 ) -> Result<Inference, FuzzyError> {
-    if inputs.len() != variables.len() {
-        return Err(FuzzyError::Length("inputs"));
-    }
     let mut met = Inference::default();
     let mut rest = degrees;
     for (variable, &x) in variables.iter().zip(inputs) {
-        let (lo, hi) = variable.range;
-        let x = if x > hi {
-            met.clamped = true;
-            hi
-        } else if x >= lo {
-            x
-        } else if x < lo {
-            met.clamped = true;
-            lo
-        } else {
-            met.nan = true;
-            return Ok(met);
-        };
+        let Some(x) = clamped(x, variable.range, &mut met) else { break };
         let Some((own, tail)) = rest.split_at_mut_checked(variable.terms.len()) else {
             return Err(FuzzyError::Length("workspace"));
         };

@@ -1,7 +1,7 @@
 //! Sugeno inference over tables that stay where they are.
 
 use super::FuzzyError;
-use super::firing::{Antecedent, degree_count, fuzzify};
+use super::firing::{Antecedent, fuzzify};
 use super::tables::{Consequent, Inference, SugenoOutput, SugenoTables, check_range, check_rules};
 use mm_model::Real;
 
@@ -89,7 +89,8 @@ impl<'a, T: Real> Sugeno<'a, T> {
         if rules.iter().any(|rule| rule.outputs.iter().any(|&index| index < 0)) {
             return Err(FuzzyError::OutOfRange("rules.outputs"));
         }
-        Ok(Self { tables, degrees: degree_count(inputs) })
+        let degrees = inputs.iter().map(|input| input.terms.len()).sum();
+        Ok(Self { tables, degrees })
     }
 
     /// The tables the engine works on.
@@ -115,6 +116,9 @@ impl<'a, T: Real> Sugeno<'a, T> {
         workspace: &mut [T],
     ) -> Result<Inference, FuzzyError> {
         let tables = self.tables;
+        if inputs.len() != tables.inputs.len() {
+            return Err(FuzzyError::Length("inputs"));
+        }
         if outputs.len() != tables.outputs.len() {
             return Err(FuzzyError::Length("outputs"));
         }
