@@ -4,8 +4,8 @@ use mm_model::{Configuration, Mechanism, Real, Robot, SinesOf, Velocity, check};
 use nalgebra::Vector3;
 
 use crate::estimator::{Estimate, Estimator, Measurement, Memory, Stage};
-use crate::fuzzy::{Bundled, FuzzySystem};
-use crate::laws::{Bfsmc, Drive, Gains, Law, Memory as LawMemory, Tracking};
+use crate::fuzzy::Bundled;
+use crate::laws::{Drive, FuzzyTerm, Gains, Law, Memory as LawMemory, Tracking};
 use crate::observer::{MomentumObserver, ObserverState};
 use crate::outer::{OuterLoop, OuterOutput, OuterParams};
 use crate::{ControlError, Input, Output, Reference, SetupError, Signals, Status};
@@ -106,16 +106,18 @@ where
         Self::with_law(robot, law, params)
     }
 
-    /// A stack around the law [`Bfsmc`](crate::Bfsmc) with a rule base of the caller's own.
+    /// A stack around a law that has a fuzzy system, with one of the caller's own.
     ///
     /// # Errors
-    /// The first parameter that does not work, by name, or the rule base.
-    pub fn with_rules(
+    /// The first parameter that does not work, by name, or the fuzzy system; see [`Law::with_fuzzy`].
+    pub fn with_fuzzy(
         robot: Robot<T, N>,
-        rules: &impl FuzzySystem<T>,
+        kind: crate::LawKind,
+        term: FuzzyTerm<T>,
         params: StackParams<T, N>,
     ) -> Result<Self, SetupError> {
-        Self::with_law(robot, Law::Bfsmc(Bfsmc::with_rules(&params.gains, rules)?), params)
+        let law = Law::with_fuzzy(kind, &robot, &params.gains, term)?;
+        Self::with_law(robot, law, params)
     }
 
     fn with_law(robot: Robot<T, N>, law: Law<T, N>, params: StackParams<T, N>) -> Result<Self, SetupError> {

@@ -18,7 +18,7 @@ mod common {
 
 use common::random::Random;
 use mm_control::fuzzy::{Curve, FuzzyError, MamdaniTables, SMOOTH, THESIS};
-use mm_control::laws::Misprints;
+use mm_control::laws::{FuzzyTerm, Misprints};
 use mm_control::{
     Bfsmc, ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference, SetupError,
     StackParams,
@@ -199,13 +199,17 @@ fn bfsmc_is_odd_falling_and_continuous() {
     }
 }
 
-fn output(rules: Option<&Curve<'_, f64>>, gains: Gains<f64, 3>) -> [f64; 5] {
+fn table(tables: &MamdaniTables<'_, f64>) -> FuzzyTerm<f64> {
+    FuzzyTerm::table(&Curve::<f64>::try_new(tables).unwrap()).unwrap()
+}
+
+fn output(term: Option<FuzzyTerm<f64>>, gains: Gains<f64, 3>) -> [f64; 5] {
     let robot = robot();
     let params =
         StackParams { period: PERIOD, outer: OuterParams::default(), gains, estimator: Estimator::None };
-    let stack = match rules {
+    let stack = match term {
         None => ControlStack::try_new(robot, LawKind::Bfsmc, params).unwrap(),
-        Some(rules) => ControlStack::with_rules(robot, rules, params).unwrap(),
+        Some(term) => ControlStack::with_fuzzy(robot, LawKind::Bfsmc, term, params).unwrap(),
     };
     let q = Configuration { joints: [0.1, 0.9, -1.8], ..Configuration::zero() };
     let position = robot.tip_position(&q) + Vector3::repeat(1e-3);
@@ -218,7 +222,7 @@ fn output(rules: Option<&Curve<'_, f64>>, gains: Gains<f64, 3>) -> [f64; 5] {
 #[test]
 fn other_rules_give_another_torque() {
     let (_, gains) = law(LawKind::Bfsmc);
-    let smooth = output(Some(&Curve::try_new(&SMOOTH).unwrap()), gains);
+    let smooth = output(Some(table(&SMOOTH)), gains);
     let bits = |torque: [f64; 5]| torque.map(f64::to_bits);
     assert_eq!(bits(output(None, gains)), bits(smooth), "the default rules are SMOOTH");
 
@@ -226,11 +230,11 @@ fn other_rules_give_another_torque() {
     let mut rules = SMOOTH.rules.to_vec();
     (rules[2].outputs, rules[4].outputs) = (&[6], &[2]);
     let tables = MamdaniTables { rules: &rules, ..SMOOTH };
-    let (a, b) = (smooth, output(Some(&Curve::try_new(&tables).unwrap()), gains));
+    let (a, b) = (smooth, output(Some(table(&tables)), gains));
     for (channel, (a, b)) in a.iter().zip(b).enumerate() {
         assert!((a - b).abs() > 1e-3, "torque {channel} stays {a} under other rules");
     }
-    let thesis = Law::Bfsmc(Bfsmc::with_rules(&gains, &Curve::<f64>::try_new(&THESIS).unwrap()).unwrap());
+    let thesis = Law::Bfsmc(Bfsmc::with_term(&gains, table(&THESIS)).unwrap());
     let third = gains.fuzzy.scaled(1.0 / 3.0);
     for (a, k) in thesis.authority().unwrap().channels().zip(third.channels()) {
         assert!((a - k).abs() < 1e-3 * k, "authority {a} at the weak edge of Appendix C, not {k}");
@@ -248,7 +252,7 @@ fn rules_that_aid_the_motion_are_refused() {
     lopsided[3].outputs = &[5];
     for (rules, what) in [(turned, "the wrong sign"), (lopsided, "an answer at zero")] {
         let tables = MamdaniTables { rules: &rules, ..SMOOTH };
-        let refused = Bfsmc::with_rules(&gains, &Curve::<f64>::try_new(&tables).unwrap()).err();
+        let refused = Bfsmc::with_term(&gains, table(&tables)).err();
         let expected = SetupError::Fuzzy(FuzzyError::OutOfRange("rules"));
         assert_eq!(refused, Some(expected), "rules with {what} are taken");
     }

@@ -16,6 +16,7 @@ mod common {
 
 use common::plant::Plant;
 use mm_control::fuzzy::{Bundled, Curve, FuzzyError, MamdaniTables, MembershipFunction, SMOOTH, Variable};
+use mm_control::laws::FuzzyTerm;
 use mm_control::{
     Bfsmc, ControlError, ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference,
     SetupError, StackParams,
@@ -124,13 +125,17 @@ fn errors_read_as_sentences() {
     // A gain that is refused is refused by a law made by hand as well.
     let mut gains = params().gains;
     gains.fuzzy_scale.forward = -1.0;
-    let error = Bfsmc::with_rules(&gains, &Curve::<f64>::try_new(&SMOOTH).unwrap()).err();
+    let error =
+        Bfsmc::with_term(&gains, FuzzyTerm::table(&Curve::<f64>::try_new(&SMOOTH).unwrap()).unwrap()).err();
     assert_eq!(error, Some(SetupError::Param(ParamError::NonPositive("fuzzy_scale"))), "a negative scale");
     // Rules that answer nowhere make a law of no authority, not a refusal.
     let terms = [MembershipFunction::Triangle([-1.0, 0.0, 1.0]); 7];
     let outputs = [Variable { terms: &terms, ..SMOOTH.outputs[0] }];
     let mute = MamdaniTables { outputs: &outputs, ..SMOOTH };
-    let law = Law::Bfsmc(Bfsmc::with_rules(&params().gains, &Curve::<f64>::try_new(&mute).unwrap()).unwrap());
+    let law = Law::Bfsmc(
+        Bfsmc::with_term(&params().gains, FuzzyTerm::table(&Curve::<f64>::try_new(&mute).unwrap()).unwrap())
+            .unwrap(),
+    );
     assert!(law.authority().unwrap().channels().all(|k| k.abs() < 1e-9), "mute rules have an authority");
 }
 

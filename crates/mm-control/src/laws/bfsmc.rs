@@ -2,16 +2,13 @@
 
 use mm_model::{Force, Real, Velocity};
 
-use super::{Gains, channel_zip};
+use super::{FuzzyTerm, Gains, channel_zip};
 use crate::SetupError;
-use crate::fuzzy::{Bundled, Curve, FuzzyError, FuzzySystem, Surface};
-
-/// Knots of the tabulated fuzzy surface.
-const KNOTS: usize = 65;
+use crate::fuzzy::{Bundled, FuzzyError, FuzzySystem};
 
 /// The continuous law f = k_f phi(s / scale) - d_hat, with phi a fuzzy surface and d_hat a learned disturbance.
 ///
-/// phi is a Mamdani system tabulated at construction that never aids s: s phi(s) <= 0, phi(0) = 0. The default,
+/// phi is a fuzzy system, tabulated at construction unless a [`FuzzyTerm`] says otherwise, that never aids s: s phi(s) <= 0, phi(0) = 0. The default,
 /// [`SMOOTH`](crate::fuzzy::SMOOTH), is odd and
 /// falls monotonely as well. d_hat comes from a momentum observer with bandwidth L, a projection on |d_hat_i| <= limit_i and
 /// anti-windup: the sum of everything that the nominal model does not account for.
@@ -39,10 +36,10 @@ const KNOTS: usize = 65;
 /// Sampled with period dt: dt times the largest eigenvalue of M^-1 diag(slope) has to stay below 2 (the default gains keep the sum of
 /// all its eigenvalues at (2 + N) / 10 in the rest posture), L dt below 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bfsmc<T, const N: usize> {
+pub struct Bfsmc<T: 'static, const N: usize> {
     gain: Force<T, N>,
     per_scale: Velocity<T, N>,
-    surface: Surface<T, KNOTS>,
+    term: FuzzyTerm<T>,
 }
 
 impl<T: Real, const N: usize> Bfsmc<T, N> {
@@ -50,42 +47,31 @@ impl<T: Real, const N: usize> Bfsmc<T, N> {
     where
         T: Bundled,
     {
-        Self::with_rules(gains, &Curve::<T>::try_new(T::SMOOTH)?)
+        Self::with_term(gains, FuzzyTerm::smooth()?)
     }
 
-    /// The law with a rule base of the user's own. Its input range is what `s / scale` is clamped to.
+    /// The law with a fuzzy system of the user's own. Its input range is what `s / scale` is clamped to.
     ///
     /// # Errors
-    /// A gain, a rule base that cannot be tabulated, or one that aids s somewhere: `rules` out of range.
-    pub fn with_rules(gains: &Gains<T, N>, rules: &impl FuzzySystem<T>) -> Result<Self, SetupError> {
+    /// A gain, or a system that aids s somewhere: `rules` out of range.
+    pub fn with_term(gains: &Gains<T, N>, term: FuzzyTerm<T>) -> Result<Self, SetupError> {
         gains.check()?;
-        let surface = Surface::from_engine(rules)?;
-        if !opposes(&surface) {
+        if !term.opposes() {
             return Err(FuzzyError::OutOfRange("rules").into());
         }
-        Ok(Self { gain: gains.fuzzy, per_scale: gains.fuzzy_scale.map(|scale| T::ONE / scale), surface })
+        Ok(Self { gain: gains.fuzzy, per_scale: gains.fuzzy_scale.map(|scale| T::ONE / scale), term })
     }
 
     #[inline]
     pub(super) fn force(&self, s: &Velocity<T, N>) -> Force<T, N> {
         let scaled = s.zip(self.per_scale, |s, w| s * w);
-        channel_zip(&scaled, &self.gain, |x, k| k * self.surface.evaluate(x))
+        channel_zip(&scaled, &self.gain, |x, k| k * self.term.evaluate(x))
     }
 
     /// Force at the weaker edge of the surface.
     pub(super) fn authority(&self) -> Force<T, N> {
-        let (lo, hi) = self.surface.input_range();
-        let edge = self.surface.evaluate(lo).abs().min(self.surface.evaluate(hi).abs());
+        let (lo, hi) = self.term.input_range();
+        let edge = self.term.evaluate(lo).abs().min(self.term.evaluate(hi).abs());
         self.gain.map(|gain| gain * edge)
     }
-}
-
-/// Whether a surface answers no input with an output of its own sign, and zero with zero, up to rounding.
-fn opposes<T: Real>(surface: &Surface<T, KNOTS>) -> bool {
-    let rounding = T::from_f64(64.0) * T::EPSILON;
-    let (below, above) = surface.knots().split_at(KNOTS / 2);
-    let (centred, above) = above.split_first().map_or((false, above), |(middle, above)| {
-        (middle.abs() <= rounding && surface.evaluate(T::ZERO).abs() <= rounding, above)
-    });
-    centred && below.iter().all(|&y| y >= -rounding) && above.iter().all(|&y| y <= rounding)
 }

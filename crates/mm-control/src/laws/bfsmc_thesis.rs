@@ -2,9 +2,9 @@
 
 use mm_model::{Force, Real, RobotParams, Velocity};
 
-use super::{Gains, RobustForce, channel_zip};
+use super::{FuzzyTerm, Gains, RobustForce, channel_zip};
 use crate::SetupError;
-use crate::fuzzy::{Bundled, Curve, FuzzySystem};
+use crate::fuzzy::{Bundled, FuzzySystem};
 
 /// Readings of the printed equations that contradict its proof, to see what they do. None by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -28,7 +28,8 @@ pub struct BfsmcThesis<T: 'static, const N: usize> {
     gain: Force<T, N>,
     fuzzy_gain: Force<T, N>,
     per_scale: Velocity<T, N>,
-    rules: Curve<'static, T>,
+    term: FuzzyTerm<T>,
+    opposes: bool,
     misprints: Misprints,
     /// 1/r and l/r, half the track over the wheel's radius: forces of torques at the wheels.
     wheels: (T, T),
@@ -39,26 +40,40 @@ impl<T: Real, const N: usize> BfsmcThesis<T, N> {
     where
         T: Bundled,
     {
+        Self::with_term(robot, gains, FuzzyTerm::thesis()?)
+    }
+
+    /// The law with a fuzzy system of the user's own instead of Appendix C.
+    ///
+    /// # Errors
+    /// A gain.
+    pub fn with_term(
+        robot: &RobotParams<T, N>,
+        gains: &Gains<T, N>,
+        term: FuzzyTerm<T>,
+    ) -> Result<Self, SetupError> {
+        gains.check()?;
         let per_radius = T::ONE / robot.wheel_radius;
         Ok(Self {
             gain: gains.switching,
             fuzzy_gain: gains.fuzzy,
             per_scale: gains.fuzzy_scale.map(|scale| T::ONE / scale),
-            rules: Curve::try_new(T::THESIS)?,
+            term,
+            opposes: term.opposes(),
             misprints: gains.misprints,
             wheels: (per_radius, T::HALF * robot.track_width * per_radius),
         })
     }
 
-    /// Largest force that surely opposes s; none where a misprint turns or diverts it.
+    /// Largest force that surely opposes s; none where a misprint turns or diverts it, or the fuzzy system aids s somewhere.
     pub(super) fn authority(&self) -> Option<Force<T, N>> {
-        (self.misprints == Misprints::default()).then_some(self.gain)
+        (self.opposes && self.misprints == Misprints::default()).then_some(self.gain)
     }
 
     #[inline]
     pub(super) fn force(&self, s: &Velocity<T, N>) -> RobustForce<T, N> {
         let scaled = s.zip(self.per_scale, |s, w| s * w);
-        let fuzzy = channel_zip(&scaled, &self.fuzzy_gain, |x, k| k * self.rules.evaluate(x));
+        let fuzzy = channel_zip(&scaled, &self.fuzzy_gain, |x, k| k * self.term.evaluate(x));
         let switching = channel_zip(s, &self.gain, |s, k| -(k * s.sign()));
         RobustForce { total: self.misprinted(switching.plus(fuzzy)), fuzzy: self.misprinted(fuzzy) }
     }

@@ -26,6 +26,7 @@ mod bfsmc_thesis;
 mod bsmc;
 mod bsmc_sat;
 mod ctc;
+mod fuzzy_term;
 mod gains;
 mod lqr;
 mod pid;
@@ -40,6 +41,7 @@ pub use bfsmc_thesis::{BfsmcThesis, Misprints};
 pub use bsmc::Bsmc;
 pub use bsmc_sat::BsmcSat;
 pub use ctc::Ctc;
+pub use fuzzy_term::FuzzyTerm;
 pub use gains::{EffectiveInertia, Gains};
 pub use lqr::Lqr;
 pub use pid::Pid;
@@ -51,7 +53,7 @@ pub(crate) use tracking::{Drive, Memory, Tracking};
 use mm_model::{Force, Mechanism, Real, Robot, Velocity};
 
 use crate::SetupError;
-use crate::fuzzy::Bundled;
+use crate::fuzzy::{Bundled, FuzzyError};
 
 /// The laws by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -182,6 +184,26 @@ where
             }
             LawKind::SuperTwisting => Self::SuperTwisting(SuperTwisting::new(gains)),
         })
+    }
+
+    /// The law of a kind that has a fuzzy system, with one of the user's own.
+    ///
+    /// # Errors
+    /// As [`try_new`](Self::try_new); `kind` out of range for a law without a fuzzy system, `rules` for one that aids the
+    /// motion, which [`Bfsmc`] refuses.
+    pub fn with_fuzzy(
+        kind: LawKind,
+        robot: &Robot<T, N>,
+        gains: &Gains<T, N>,
+        term: FuzzyTerm<T>,
+    ) -> Result<Self, SetupError> {
+        match kind {
+            LawKind::Bfsmc => Bfsmc::with_term(gains, term).map(Self::Bfsmc),
+            LawKind::BfsmcThesis => {
+                BfsmcThesis::with_term(robot.params(), gains, term).map(Self::BfsmcThesis)
+            }
+            _ => Err(FuzzyError::OutOfRange("kind").into()),
+        }
     }
 
     /// Which law this is.
