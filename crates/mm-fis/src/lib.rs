@@ -7,7 +7,11 @@
 //! ```
 
 mod engine;
+mod fis;
+mod read;
 mod system;
 
 pub use engine::{Accuracy, Engine};
+pub use fis::read_fis;
+pub use read::{Document, Problem, ReadError};
 pub use system::{Defuzzification, Kind, Rule, Shape, System, Term, Variable};
