@@ -10,8 +10,10 @@ mod engine;
 mod fis;
 mod read;
 mod system;
+mod write;
 
 pub use engine::{Accuracy, Engine};
 pub use fis::read_fis;
 pub use read::{Document, Problem, ReadError};
 pub use system::{Defuzzification, Kind, Rule, Shape, System, Term, Variable};
+pub use write::write_fis;
