@@ -2,7 +2,7 @@
 
 use mm_model::{Force, Real, Velocity};
 
-use super::{FuzzyTerm, Gains, channel_zip};
+use super::{FuzzyTerm, Gains};
 use crate::SetupError;
 use crate::fuzzy::{Bundled, FuzzyError, FuzzySystem};
 
@@ -65,7 +65,7 @@ impl<T: Real, const N: usize> Bfsmc<T, N> {
     #[inline]
     pub(super) fn force(&self, s: &Velocity<T, N>) -> Force<T, N> {
         let scaled = s.zip(self.per_scale, |s, w| s * w);
-        channel_zip(&scaled, &self.gain, |x, k| k * self.term.evaluate(x))
+        self.term.force(&scaled, &self.gain)
     }
 
     /// Force at the weaker edge of the surface.

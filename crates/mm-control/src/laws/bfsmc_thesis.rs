@@ -4,7 +4,7 @@ use mm_model::{Force, Real, RobotParams, Velocity};
 
 use super::{FuzzyTerm, Gains, RobustForce, channel_zip};
 use crate::SetupError;
-use crate::fuzzy::{Bundled, FuzzySystem};
+use crate::fuzzy::Bundled;
 
 /// Readings of the printed equations that contradict its proof, to see what they do. None by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -73,7 +73,7 @@ impl<T: Real, const N: usize> BfsmcThesis<T, N> {
     #[inline]
     pub(super) fn force(&self, s: &Velocity<T, N>) -> RobustForce<T, N> {
         let scaled = s.zip(self.per_scale, |s, w| s * w);
-        let fuzzy = channel_zip(&scaled, &self.fuzzy_gain, |x, k| k * self.term.evaluate(x));
+        let fuzzy = self.term.force(&scaled, &self.fuzzy_gain);
         let switching = channel_zip(s, &self.gain, |s, k| -(k * s.sign()));
         RobustForce { total: self.misprinted(switching.plus(fuzzy)), fuzzy: self.misprinted(fuzzy) }
     }

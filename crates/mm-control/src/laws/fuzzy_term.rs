@@ -1,7 +1,8 @@
 //! The fuzzy system of a law: the same rules as an engine, as integers or as a table.
 
-use mm_model::Real;
+use mm_model::{Force, Real, Velocity};
 
+use super::channel_zip;
 use crate::fuzzy::{Bundled, Curve, FuzzyError, FuzzySystem, MamdaniTables, Surface};
 
 /// Knots of the tabulated fuzzy surface.
@@ -56,24 +57,16 @@ impl<T: Real> FuzzyTerm<T> {
     }
 }
 
-impl<T: Real> FuzzySystem<T> for FuzzyTerm<T> {
-    #[inline(always)]
-    fn evaluate(&self, x: T) -> T {
-        match self {
-            Self::Table(table) => table.evaluate(x),
-            other => other.evaluate_rules(x),
-        }
-    }
-
-    fn input_range(&self) -> (T, T) {
-        match self {
-            Self::Table(table) => table.input_range(),
-            Self::Rules(rules) => rules.input_range(),
-        }
-    }
-}
-
 impl<T: Real> FuzzyTerm<T> {
+    /// The force of every channel, k times the output for the scaled sliding variable x.
+    #[inline]
+    pub(super) fn force<const N: usize>(&self, x: &Velocity<T, N>, k: &Force<T, N>) -> Force<T, N> {
+        match self {
+            Self::Table(table) => channel_zip(x, k, |x, k| k * table.evaluate(x)),
+            Self::Rules(rules) => by_rules(rules, x, k),
+        }
+    }
+
     /// Whether no input is answered with an output of its own sign, and zero with zero, up to rounding.
     ///
     /// Seen at 1,024 equally spaced inputs on either side of zero.
@@ -87,13 +80,30 @@ impl<T: Real> FuzzyTerm<T> {
         };
         self.evaluate(T::ZERO).abs() <= rounding && lo < T::ZERO && hi > T::ZERO && (1..=1024).all(against)
     }
+}
 
-    /// What is no table, out of line: it shall not grow the code of the usual case.
-    #[inline(never)]
-    fn evaluate_rules(&self, x: T) -> T {
+/// The force by the rules, out of line: it shall not grow the code of the usual case.
+#[inline(never)]
+fn by_rules<T: Real, const N: usize>(
+    rules: &impl FuzzySystem<T>,
+    x: &Velocity<T, N>,
+    k: &Force<T, N>,
+) -> Force<T, N> {
+    channel_zip(x, k, |x, k| k * rules.evaluate(x))
+}
+
+impl<T: Real> FuzzySystem<T> for FuzzyTerm<T> {
+    fn evaluate(&self, x: T) -> T {
         match self {
             Self::Table(table) => table.evaluate(x),
             Self::Rules(rules) => rules.evaluate(x),
+        }
+    }
+
+    fn input_range(&self) -> (T, T) {
+        match self {
+            Self::Table(table) => table.input_range(),
+            Self::Rules(rules) => rules.input_range(),
         }
     }
 }
