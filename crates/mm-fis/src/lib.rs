@@ -6,14 +6,17 @@
 //!                        \---compile--> Rust, C, TOML              fixed-point tables for firmware
 //! ```
 
+mod coverage;
 mod engine;
+mod fcl;
 mod fis;
 mod read;
 mod system;
 mod write;
 
 pub use engine::{Accuracy, Engine};
+pub use fcl::read_fcl;
 pub use fis::read_fis;
-pub use read::{Document, Problem, ReadError};
+pub use read::{Document, Problem, ReadError, read};
 pub use system::{Defuzzification, Kind, Rule, Shape, System, Term, Variable};
 pub use write::write_fis;

@@ -7,6 +7,12 @@ mod rules;
 mod scan;
 mod variable;
 
+pub(crate) use names::{FORMS, count};
+pub(crate) use scan::{Number, number};
+pub(crate) use variable::check_range;
+
+use std::ops::RangeInclusive;
+
 use keys::Keys;
 use lines::{Section, Topic, sections};
 use names::{
@@ -32,6 +38,9 @@ const SYSTEM_KEYS: [&str; 11] = [
     "AggMethod",
     "DefuzzMethod",
 ];
+
+/// fuzzylite puts its own version.
+const FUZZYLITE: RangeInclusive<f64> = 4.0..=9.0;
 
 /// Reads a `.fis` file of version 2.0, as MATLAB, GNU Octave and others write it.
 ///
@@ -102,7 +111,8 @@ struct Head {
 
 fn head(keys: &Keys<'_>, report: &mut Report) -> Option<Head> {
     if let Some(version) = keys.number("Version", report)
-        && ![1.0, 2.0].contains(&version.value)
+        && !(version.value >= 1.0 && version.value < 3.0)
+        && !FUZZYLITE.contains(&version.value)
     {
         report.add_expected(version.place, format!("version {}", version.place.text), "`2.0`");
     }

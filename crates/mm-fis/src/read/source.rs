@@ -115,8 +115,9 @@ impl Report {
 
     /// Adds an unknown name, with those that are known.
     pub(crate) fn add_unknown(&mut self, place: Piece<'_>, what: &str, known: &[&str]) {
+        let expected = (!known.is_empty()).then(|| one_of(known));
         let near = nearest(place.text, known.iter().copied()).map(str::to_owned);
-        self.push(place, format!("{what} {}", place.shown()), Some(one_of(known)), near);
+        self.push(place, format!("{what} {}", place.shown()), expected, near);
     }
 
     fn push(&mut self, place: Piece<'_>, message: String, expected: Option<String>, nearest: Option<String>) {
