@@ -6,6 +6,7 @@
 //!                        \---compile--> Rust, C, TOML              fixed-point tables for firmware
 //! ```
 
+pub mod compile;
 mod coverage;
 mod engine;
 mod fcl;

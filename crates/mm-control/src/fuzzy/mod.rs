@@ -31,6 +31,7 @@ mod engine;
 mod error;
 mod exact;
 mod firing;
+pub mod fixed;
 mod membership;
 mod sampled;
 mod smooth;

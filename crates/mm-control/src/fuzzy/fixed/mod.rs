@@ -1,0 +1,32 @@
+//! Fuzzy inference for machines without a floating-point unit: whole numbers from the input to the output.
+//!
+//! ```text
+//! system --compile--> Tables   --try_new--> Engine, Curve     rules, within 2 units of the exact centroid
+//!         (mm-fis) -> Surface1                                a table of knots for one input, within the bound asked for
+//!                  -> Surface2                                the same for two
+//! ```
+//!
+//! | item | role |
+//! |---|---|
+//! | [`Tables`], [`Term`], [`Slot`], [`Rule`] | a rule base |
+//! | [`Engine`] | the checked engine, any number of inputs and outputs |
+//! | [`Curve`] | the engine as a function of one number |
+//! | [`Evaluate`] | what curves and surfaces of one input have in common |
+//!
+//! Units: an input or output is an `i16` q that stands for `middle + half q / 32768` of its range.
+//!
+//! Every operation names its overflow rule: `wrapping_` with the bound that keeps it from wrapping, `saturating_`, `checked_`.
+#![deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::float_arithmetic)]
+
+mod curve;
+mod engine;
+mod grade;
+mod slot;
+mod slow;
+mod term;
+
+pub use curve::{Curve, Evaluate};
+pub use engine::{Engine, Premise, Rule, Tables};
+pub use slot::Slot;
+use slow::Sample;
+pub use term::Term;

@@ -1,0 +1,55 @@
+//! Why a system could not be compiled.
+
+use mm_control::fuzzy::FuzzyError;
+
+/// Why a system could not be compiled.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompileError {
+    /// The rule engine in fixed point has no place for a part of the system; a surface has.
+    #[error("the Q15 engine cannot take {part}: {reason}; a compiled surface can")]
+    Unsupported {
+        /// The part, with its name.
+        part: String,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// The system itself is refused.
+    #[error("the system is refused: {0}")]
+    System(#[from] FuzzyError),
+    /// The request makes no sense.
+    #[error("`{name}` is {value}: expected {expected}")]
+    Request {
+        /// Which number.
+        name: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it may be.
+        expected: &'static str,
+    },
+    /// The function gave no finite number.
+    #[error("the system gives {value} at {at:?}: a table can hold finite numbers only")]
+    NotFinite {
+        /// Where.
+        at: Vec<f64>,
+        /// What it gave.
+        value: f64,
+    },
+    /// No table within the limit on knots, at the resolution of the output, meets the bound.
+    #[error(
+        "no table of at most {max_knots} knots meets the bound {bound:.3e}: the best reaches {reachable:.3e}, worst at {at:?}"
+    )]
+    Bound {
+        /// What was asked for, in output units.
+        bound: f64,
+        /// The smallest largest error that was found, in output units.
+        reachable: f64,
+        /// Where it is.
+        at: Vec<f64>,
+        /// The limit on knots.
+        max_knots: usize,
+    },
+    /// A generated file could not be read back.
+    #[error("{0}")]
+    Read(String),
+}
