@@ -6,7 +6,7 @@ mod row;
 mod steps;
 
 pub use error::CompileError;
-pub use q15::{OutputRow, OwnedRule, Q15};
+pub use q15::{OutputRow, OwnedRule, OwnedTrigger, Q15};
 pub use row::Shape as SlotShape;
 
 fn unsupported(part: impl Into<String>, reason: &'static str) -> CompileError {

@@ -1,6 +1,6 @@
 //! From a system to the tables of the rule engine in fixed point.
 
-use mm_control::fuzzy::fixed::{Engine, Premise, Rule, Slot, Tables, Term};
+use mm_control::fuzzy::fixed::{Engine, Premise, Rule, Slot, Tables, Term, Trigger};
 use mm_control::fuzzy::{Aggregation, And, Connective, MembershipFunction, Or};
 
 use super::row::{self, Shape as SlotShape};
@@ -22,12 +22,12 @@ pub struct Q15 {
     pub input_ranges: Vec<(f64, f64)>,
     /// Lower and upper end of each output.
     pub output_ranges: Vec<(f64, f64)>,
-    /// Corners of the terms of each input, in steps.
-    pub inputs: Vec<Vec<[i32; 4]>>,
+    /// The terms of each input.
+    pub inputs: Vec<Vec<OwnedTrigger>>,
+    /// The rules that no single term sets off.
+    pub rest: Vec<OwnedRule>,
     /// The slots of each output.
     pub outputs: Vec<OutputRow>,
-    /// The rules.
-    pub rules: Vec<OwnedRule>,
     /// Degree of AND.
     pub and: And,
     /// Degree of OR.
@@ -43,6 +43,15 @@ pub struct OutputRow {
     pub scale: u32,
     /// The slots.
     pub slots: Vec<SlotShape>,
+}
+
+/// A term of an input and the rules listed under it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OwnedTrigger {
+    /// Corners in steps.
+    pub corners: [i32; 4],
+    /// The rules.
+    pub rules: Vec<OwnedRule>,
 }
 
 /// A rule.
@@ -125,26 +134,15 @@ impl Q15 {
             outputs.push(output);
         }
         let odd = is_odd(&rules, &input_corners, &output_corners);
-        let rules = rules
-            .iter()
-            .zip(slots_of_rules)
-            .map(|(rule, slots)| {
-                Ok(OwnedRule {
-                    premises: premises(rule, &input_corners)?,
-                    slots,
-                    weight: weight(rule),
-                    connective: rule.connective,
-                })
-            })
-            .collect::<Result<_, CompileError>>()?;
+        let (inputs, rest) = listed(&rules, slots_of_rules, &input_corners)?;
         let ranges = |variables: &[Variable]| variables.iter().map(|variable| variable.range).collect();
         let compiled = Self {
             name: system.name.clone(),
             input_ranges: ranges(&system.inputs),
             output_ranges: ranges(&system.outputs),
-            inputs: input_corners,
+            inputs,
+            rest,
             outputs,
-            rules,
             and: system.and,
             or: system.or,
             odd,
@@ -155,32 +153,45 @@ impl Q15 {
 
     /// Makes the tables and hands them to `work`; they live as long as that call.
     pub fn with_tables<R>(&self, work: impl FnOnce(&Tables<'_>) -> R) -> R {
-        let inputs: Vec<Vec<Term>> = self
+        let rules: Vec<Vec<Vec<Rule<'_>>>> = self
             .inputs
             .iter()
-            .map(|terms| terms.iter().map(|&corners| Term::new(corners)).collect())
-            .collect();
-        let inputs: Vec<&[Term]> = inputs.iter().map(Vec::as_slice).collect();
-        let outputs: Vec<Vec<Slot>> = self.outputs.iter().map(OutputRow::slots).collect();
-        let outputs: Vec<&[Slot]> = outputs.iter().map(Vec::as_slice).collect();
-        let rules: Vec<Rule<'_>> = self
-            .rules
-            .iter()
-            .map(|rule| Rule {
-                premises: &rule.premises,
-                slots: &rule.slots,
-                weight: rule.weight,
-                connective: rule.connective,
+            .map(|terms| {
+                terms.iter().map(|trigger| trigger.rules.iter().map(OwnedRule::borrow).collect()).collect()
             })
             .collect();
+        let inputs: Vec<Vec<Trigger<'_>>> = (self.inputs.iter().zip(&rules))
+            .map(|(terms, rules)| {
+                terms
+                    .iter()
+                    .zip(rules)
+                    .map(|(term, rules)| Trigger { term: Term::new(term.corners), rules })
+                    .collect()
+            })
+            .collect();
+        let inputs: Vec<&[Trigger<'_>]> = inputs.iter().map(Vec::as_slice).collect();
+        let outputs: Vec<Vec<Slot>> = self.outputs.iter().map(OutputRow::slots).collect();
+        let outputs: Vec<&[Slot]> = outputs.iter().map(Vec::as_slice).collect();
+        let rest: Vec<Rule<'_>> = self.rest.iter().map(OwnedRule::borrow).collect();
         work(&Tables {
             inputs: &inputs,
             outputs: &outputs,
-            rules: &rules,
+            rest: &rest,
             and: self.and,
             or: self.or,
             odd: self.odd,
         })
+    }
+}
+
+impl OwnedRule {
+    fn borrow(&self) -> Rule<'_> {
+        Rule {
+            premises: &self.premises,
+            slots: &self.slots,
+            weight: self.weight,
+            connective: self.connective,
+        }
     }
 }
 
@@ -271,19 +282,44 @@ fn weight(rule: &crate::Rule) -> u32 {
     (rule.weight * ONE).round() as u32
 }
 
-fn premises(rule: &crate::Rule, inputs: &[Vec<[i32; 4]>]) -> Result<Vec<Premise>, CompileError> {
-    let mut before = 0;
-    let mut premises = Vec::new();
-    for (&term, terms) in rule.inputs.iter().zip(inputs) {
-        if term != 0 {
-            let number = before + usize::from(term.unsigned_abs()) - 1;
-            let number =
-                u16::try_from(number).map_err(|_| unsupported("the inputs", "there are too many terms"))?;
-            premises.push(Premise { term: number, not: term < 0 });
+/// The terms of each input with the rules listed under them, and the other rules.
+///
+/// A rule joined by AND goes under the term with the narrowest reach of those it asks for: there it is met least often.
+fn listed(
+    rules: &[&crate::Rule],
+    slots: Vec<Vec<u16>>,
+    inputs: &[Vec<[i32; 4]>],
+) -> Result<(Vec<Vec<OwnedTrigger>>, Vec<OwnedRule>), CompileError> {
+    let term = |&corners: &[i32; 4]| OwnedTrigger { corners, rules: Vec::new() };
+    let mut terms: Vec<Vec<OwnedTrigger>> =
+        inputs.iter().map(|terms| terms.iter().map(term).collect()).collect();
+    let mut rest = Vec::new();
+    for (rule, slots) in rules.iter().zip(slots) {
+        let mut premises = Vec::new();
+        for (input, &index) in rule.inputs.iter().enumerate() {
+            if let Some(term) = index.unsigned_abs().checked_sub(1) {
+                let input =
+                    u16::try_from(input).map_err(|_| unsupported("the system", "it has too many inputs"))?;
+                premises.push(Premise { input, term, not: index < 0 });
+            }
         }
-        before += terms.len();
+        let reach = |premise: &Premise| {
+            let [a, .., d] = inputs[usize::from(premise.input)][usize::from(premise.term)];
+            d.abs_diff(a)
+        };
+        let plain = premises.iter().enumerate().filter(|(_, premise)| !premise.not);
+        let narrowest = plain.min_by_key(|(_, premise)| reach(premise)).map(|(position, _)| position);
+        let (weight, connective) = (weight(rule), rule.connective);
+        match narrowest.filter(|_| connective == Connective::And) {
+            Some(position) => {
+                let own = premises.remove(position);
+                let rule = OwnedRule { premises, slots, weight, connective };
+                terms[usize::from(own.input)][usize::from(own.term)].rules.push(rule);
+            }
+            None => rest.push(OwnedRule { premises, slots, weight, connective }),
+        }
     }
-    Ok(premises)
+    Ok((terms, rest))
 }
 
 /// Whether the rules are their own mirror image.

@@ -14,7 +14,7 @@ pub trait Evaluate {
 ///
 /// Cost: clearing the workspace besides that of the engine; `WORK` need not exceed [`Engine::workspace_len`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Curve<'a, const WORK: usize = 16> {
+pub struct Curve<'a, const WORK: usize = 8> {
     engine: Engine<'a>,
 }
 
@@ -50,7 +50,7 @@ impl<const WORK: usize> Evaluate for Curve<'_, WORK> {
     fn evaluate(&self, q: i16) -> i16 {
         let (mut output, mut workspace) = ([0], [0; WORK]);
         // The lengths were checked at construction, so there is nothing left to refuse.
-        let _checked = self.engine.infer(&[q], &mut output, &mut workspace);
+        let _checked = self.engine.infer_cleared(&[q], &mut output, &mut workspace);
         let [y] = output;
         y
     }

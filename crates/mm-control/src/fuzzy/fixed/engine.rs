@@ -1,7 +1,7 @@
 //! Mamdani inference with whole numbers only.
 
-use super::Sample;
-use super::grade::{ONE, either, product};
+use super::firing::{Sample, fire};
+use super::grade::{ONE, Q30};
 use super::slot::{Moments, Slot};
 use super::slow;
 use super::term::Term;
@@ -21,12 +21,12 @@ const LARGEST_SUM: u64 = 1 << 33;
 /// | weights | 2^-30 |
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tables<'a> {
-    /// The terms of each input.
-    pub inputs: &'a [&'a [Term]],
+    /// The terms of each input, each with the rules that need it.
+    pub inputs: &'a [&'a [Trigger<'a>]],
+    /// The rules that no single term sets off: joined by OR, or with negated premises alone.
+    pub rest: &'a [Rule<'a>],
     /// What each output is made of: a row of slots.
     pub outputs: &'a [&'a [Slot]],
-    /// The rules.
-    pub rules: &'a [Rule<'a>],
     /// Degree of AND.
     pub and: And,
     /// Degree of OR.
@@ -35,10 +35,19 @@ pub struct Tables<'a> {
     pub odd: bool,
 }
 
-/// A rule: which degrees it joins and which slots it fires.
+/// A term of an input, and the rules that fire only if it holds: "IF the input is this term AND ...".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trigger<'a> {
+    /// The term.
+    pub term: Term,
+    /// The rules, all joined by AND; one that needs several terms is listed under one of them.
+    pub rules: &'a [Rule<'a>],
+}
+
+/// A rule: what it joins and which slots it fires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rule<'a> {
-    /// What it asks; nothing is always true under AND and never under OR.
+    /// What it asks, besides the term it is listed under; nothing is always true under AND and never under OR.
     pub premises: &'a [Premise],
     /// The slots, counted from 0 through all outputs. A slot takes the strongest of the rules that fire it.
     pub slots: &'a [u16],
@@ -51,7 +60,9 @@ pub struct Rule<'a> {
 /// "The input is this term", or is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Premise {
-    /// The term, counted from 0 through all inputs.
+    /// The input, counted from 0.
+    pub input: u16,
+    /// Its term, counted from 0.
     pub term: u16,
     /// Whether it is negated.
     pub not: bool,
@@ -74,12 +85,11 @@ pub struct Premise {
 /// Overflow: none. Each operation is a `wrapping_` or `saturating_` one under a bound that is stated beside it and that
 /// [`try_new`](Self::try_new) checks. No division but one of 32 by 16 bits for each output; no panic.
 ///
-/// Cost: about 8 instructions for each term and rule that does not fire, 25 for one that does, 20 to 40 for a firing output term or
-/// overlap on a Cortex-M4.
+/// Cost: a comparison for each input term that does not hold, a multiplication for one that does, and only the rules listed under it are
+/// looked at; five or six multiplications for each firing slot and overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Engine<'a> {
     tables: &'a Tables<'a>,
-    degrees: usize,
     slots: usize,
 }
 
@@ -87,15 +97,14 @@ impl<'a> Engine<'a> {
     /// Checks the tables and takes them.
     ///
     /// # Errors
-    /// [`FuzzyError::Empty`] without inputs, outputs, terms, slots or rules; [`FuzzyError::TooMany`] (`outputs`) for more than 65,535 slots;
-    /// [`FuzzyError::OutOfRange`] for a premise or slot that does not exist, a weight above 2^30, or (`outputs.scale`)
-    /// a row of slots whose area exceeds 2^29 for one, 2^33 for all on the scale chosen, or that is out of order.
+    /// [`FuzzyError::Empty`] without inputs, outputs, terms or slots; [`FuzzyError::OutOfRange`] for a premise or slot that does not exist, a
+    /// weight above 2^30, a rule joined by OR under a term, or (`outputs.scale`) a row of slots whose area exceeds 2^29 for one,
+    /// 2^33 for all on the scale chosen, or that is out of order.
     pub fn try_new(tables: &'a Tables<'a>) -> Result<Self, FuzzyError> {
-        let Tables { inputs, outputs, rules, .. } = tables;
+        let Tables { inputs, rest, outputs, .. } = tables;
         for (empty, name) in [
             (inputs.is_empty(), "inputs"),
             (outputs.is_empty(), "outputs"),
-            (rules.is_empty(), "rules"),
             (inputs.iter().any(|terms| terms.is_empty()), "inputs.terms"),
             (outputs.iter().any(|slots| slots.is_empty()), "outputs.slots"),
         ] {
@@ -103,9 +112,6 @@ impl<'a> Engine<'a> {
                 return Err(FuzzyError::Empty(name));
             }
         }
-        let count = |lengths: &mut dyn Iterator<Item = usize>| lengths.fold(0_usize, usize::saturating_add);
-        let degrees = count(&mut inputs.iter().map(|terms| terms.len()));
-        let slots = count(&mut outputs.iter().map(|slots| slots.len()));
         for row in *outputs {
             row.iter().try_for_each(Slot::check)?;
             let sum = row.iter().fold(0_u64, |sum, slot| sum.saturating_add(slot.area().into()));
@@ -113,18 +119,13 @@ impl<'a> Engine<'a> {
                 return Err(FuzzyError::OutOfRange("outputs.scale"));
             }
         }
-        for rule in *rules {
-            if rule.weight > ONE {
-                return Err(FuzzyError::OutOfRange("rules.weight"));
-            }
-            if !rule.premises.iter().all(|premise| usize::from(premise.term) < degrees) {
-                return Err(FuzzyError::OutOfRange("rules.premises"));
-            }
-            if !rule.slots.iter().all(|&slot| usize::from(slot) < slots) {
-                return Err(FuzzyError::OutOfRange("rules.slots"));
-            }
+        let slots = outputs.iter().fold(0_usize, |count, slots| count.saturating_add(slots.len()));
+        let triggered = || inputs.iter().copied().flatten().flat_map(|trigger| trigger.rules);
+        triggered().chain(*rest).try_for_each(|rule| rule.check(inputs, slots))?;
+        if triggered().any(|rule| rule.connective == Connective::Or) {
+            return Err(FuzzyError::OutOfRange("rules.connective"));
         }
-        Ok(Self { tables, degrees, slots })
+        Ok(Self { tables, slots })
     }
 
     /// The tables the engine works on.
@@ -133,10 +134,10 @@ impl<'a> Engine<'a> {
         self.tables
     }
 
-    /// Number of words that the workspace of [`infer`](Self::infer) needs: one for each input term and one for each slot.
+    /// Number of words that the workspace of [`infer`](Self::infer) needs: one for each slot.
     #[must_use]
     pub const fn workspace_len(&self) -> usize {
-        self.degrees.saturating_add(self.slots)
+        self.slots
     }
 
     /// Infers the outputs from the inputs.
@@ -150,6 +151,19 @@ impl<'a> Engine<'a> {
         outputs: &mut [i16],
         workspace: &mut [u32],
     ) -> Result<(), FuzzyError> {
+        let strengths = workspace.get_mut(..self.slots).ok_or(FuzzyError::Length("workspace"))?;
+        strengths.fill(0);
+        self.infer_cleared(inputs, outputs, strengths)
+    }
+
+    /// The same with a workspace of zeros.
+    #[inline]
+    pub(super) fn infer_cleared(
+        &self,
+        inputs: &[i16],
+        outputs: &mut [i16],
+        strengths: &mut [u32],
+    ) -> Result<(), FuzzyError> {
         let tables = self.tables;
         if inputs.len() != tables.inputs.len() {
             return Err(FuzzyError::Length("inputs"));
@@ -157,9 +171,6 @@ impl<'a> Engine<'a> {
         if outputs.len() != tables.outputs.len() {
             return Err(FuzzyError::Length("outputs"));
         }
-        let (degrees, rest) =
-            workspace.split_at_mut_checked(self.degrees).ok_or(FuzzyError::Length("workspace"))?;
-        let strengths = rest.get_mut(..self.slots).ok_or(FuzzyError::Length("workspace"))?;
         let mut turned = false;
         if tables.odd {
             match inputs.iter().find(|&&q| q != 0) {
@@ -171,19 +182,18 @@ impl<'a> Engine<'a> {
             }
         }
         let sample = Sample { inputs, turned };
-        fuzzify(tables.inputs, sample, degrees);
-        fire(tables, degrees, strengths);
+        fire::<Q30>(tables, sample, 0, strengths);
         let mut rest = strengths;
-        let mut first_slot = 0_usize;
+        let mut first = 0_usize;
         for (output, &row) in outputs.iter_mut().zip(tables.outputs) {
-            // The lengths were made to fit above.
+            // The callers made the lengths fit.
             let Some((own, tail)) = rest.split_at_mut_checked(row.len()) else { break };
             rest = tail;
             let mut moments = moments(row, own);
             if moments.area < LEAST_AREA {
-                moments = slow::moments(tables, sample, (row, first_slot), own);
+                moments = slow::moments(tables, sample, (row, first), own);
             }
-            first_slot = first_slot.saturating_add(row.len());
+            first = first.saturating_add(row.len());
             let steps = moments.centroid().unwrap_or(0);
             // At most 2^15 in magnitude.
             let steps = if turned { steps.wrapping_neg() } else { steps };
@@ -193,58 +203,22 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// The degree of every term of every input.
-#[inline]
-fn fuzzify(inputs: &[&[Term]], sample: Sample<'_>, degrees: &mut [u32]) {
-    let mut slots = degrees.iter_mut();
-    for (terms, position) in inputs.iter().zip(sample.positions()) {
-        for (term, degree) in terms.iter().zip(&mut slots) {
-            *degree = term.degree(position);
+impl Rule<'_> {
+    fn check(&self, inputs: &[&[Trigger<'_>]], slots: usize) -> Result<(), FuzzyError> {
+        if self.weight > ONE {
+            return Err(FuzzyError::OutOfRange("rules.weight"));
         }
+        let known = |premise: &Premise| {
+            inputs
+                .get(usize::from(premise.input))
+                .is_some_and(|terms| usize::from(premise.term) < terms.len())
+        };
+        if !self.premises.iter().all(known) {
+            return Err(FuzzyError::OutOfRange("rules.premises"));
+        }
+        let fits = self.slots.iter().all(|&slot| usize::from(slot) < slots);
+        if fits { Ok(()) } else { Err(FuzzyError::OutOfRange("rules.slots")) }
     }
-}
-
-/// The strength of every slot: that of the strongest rule that fires it.
-#[inline]
-fn fire(tables: &Tables<'_>, degrees: &[u32], strengths: &mut [u32]) {
-    strengths.fill(0);
-    for rule in tables.rules {
-        let strength = strength(tables, rule, degrees);
-        if strength == 0 {
-            continue;
-        }
-        for &slot in rule.slots {
-            if let Some(slot) = strengths.get_mut(usize::from(slot)) {
-                *slot = strength.max(*slot);
-            }
-        }
-    }
-}
-
-#[inline]
-fn strength(tables: &Tables<'_>, rule: &Rule<'_>, degrees: &[u32]) -> u32 {
-    let all = rule.connective == Connective::And;
-    let mut joined = if all { ONE } else { 0 };
-    for premise in rule.premises {
-        let degree = degrees.get(usize::from(premise.term)).copied().unwrap_or(0);
-        // Degrees are at most one.
-        let degree = if premise.not { ONE.wrapping_sub(degree) } else { degree };
-        if all {
-            if degree == 0 {
-                return 0;
-            }
-            joined = match tables.and {
-                And::Min => joined.min(degree),
-                And::Prod => product(joined, degree),
-            };
-        } else {
-            joined = match tables.or {
-                Or::Max => joined.max(degree),
-                Or::Probor => either(joined, degree),
-            };
-        }
-    }
-    product(joined, rule.weight)
 }
 
 /// Area and moment of a row.

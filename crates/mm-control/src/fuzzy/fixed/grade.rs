@@ -4,8 +4,63 @@
 //! of exponent above 24 bits of mantissa with its leading bit, so that the order of the words is the order of the values; a
 //! mantissa m and an exponent e > 0 mean `m 2^(e - 278)`, and 0 is zero.
 
+use super::term::Term;
+
 /// One in Q30.
 pub(super) const ONE: u32 = 1 << 30;
+
+/// A degree or strength in one of the notations.
+pub(super) trait Grade: Copy + Ord {
+    const ZERO: Self;
+    const ONE: Self;
+    /// Degree of a term, or of its complement.
+    fn degree(term: &Term, position: i32, not: bool) -> Self;
+    /// Both.
+    fn product(self, other: Self) -> Self;
+    /// `a + b - a b`.
+    fn either(self, other: Self) -> Self;
+    /// A weight in units of 2^-30.
+    fn weight(weight: u32) -> Self;
+    /// The word that stands for it; words are ordered as the values are.
+    fn word(self) -> u32;
+}
+
+/// A number from 0 to 1 in units of 2^-30.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Q30(u32);
+
+impl Grade for Q30 {
+    const ZERO: Self = Self(0);
+    const ONE: Self = Self(ONE);
+
+    #[inline]
+    fn degree(term: &Term, position: i32, not: bool) -> Self {
+        let degree = term.degree(position);
+        // Degrees are at most one.
+        Self(if not { ONE.wrapping_sub(degree) } else { degree })
+    }
+
+    #[inline]
+    fn product(self, other: Self) -> Self {
+        Self(product(self.0, other.0))
+    }
+
+    #[inline]
+    fn either(self, other: Self) -> Self {
+        // The sum is at most 2^31, the product at most the smaller of the two.
+        Self(self.0.wrapping_add(other.0).wrapping_sub(product(self.0, other.0)))
+    }
+
+    #[inline]
+    fn weight(weight: u32) -> Self {
+        Self(weight)
+    }
+
+    #[inline]
+    fn word(self) -> u32 {
+        self.0
+    }
+}
 
 /// The upper word of a product: `floor(a b / 2^32)`. A 32 by 32 bit product fits 64 bits, so nothing overflows.
 #[expect(clippy::as_conversions, reason = "a word shifted by a word fits a word")]
@@ -26,21 +81,11 @@ pub(super) const fn product(a: u32, b: u32) -> u32 {
     ((a as u64).wrapping_mul(b as u64).wrapping_add(1 << 29) >> 30) as u32
 }
 
-/// `a + b - a b` in Q30, for factors up to `ONE`.
-#[inline]
-pub(super) const fn either(a: u32, b: u32) -> u32 {
-    // The sum is at most 2^31, the product at most the smaller of the two.
-    a.wrapping_add(b).wrapping_sub(product(a, b))
-}
-
 /// Number in small notation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Small(pub(super) u32);
 
 impl Small {
-    pub(super) const ZERO: Self = Self(0);
-    pub(super) const ONE: Self = Self((255 << 24) | (1 << 23));
-
     /// `number 2^-scale`, cut to 24 bits; what is below 2^-254 becomes 0. For numbers up to 2^scale.
     #[expect(clippy::as_conversions, reason = "24 bits are left after the shift by 40")]
     pub(super) fn new(number: u64, scale: u32) -> Self {
@@ -72,14 +117,32 @@ impl Small {
         278_u32.wrapping_sub(self.exponent())
     }
 
-    pub(super) fn product(self, other: Self) -> Self {
+    /// The value in Q30, cut.
+    pub(super) fn q30(self) -> u32 {
+        (self.mantissa() << 7).checked_shr(255_u32.wrapping_sub(self.exponent())).unwrap_or(0)
+    }
+
+    /// The mantissa in Q30 on the exponent `top` instead of the own one: below 2^30, and at least 2^29 for `top` itself.
+    pub(super) fn relative_to(self, top: u32) -> u32 {
+        (self.mantissa() << 6).checked_shr(top.saturating_sub(self.exponent())).unwrap_or(0)
+    }
+}
+
+impl Grade for Small {
+    const ZERO: Self = Self(0);
+    const ONE: Self = Self((255 << 24) | (1 << 23));
+
+    fn degree(term: &Term, position: i32, not: bool) -> Self {
+        term.small_degree(position, not)
+    }
+
+    fn product(self, other: Self) -> Self {
         // Two mantissas make 48 bits, two scales at most 556.
         let product = u64::from(self.mantissa()).wrapping_mul(u64::from(other.mantissa()));
         Self::new(product, self.scale().wrapping_add(other.scale()))
     }
 
-    /// `a + b - a b`.
-    pub(super) fn either(self, other: Self) -> Self {
+    fn either(self, other: Self) -> Self {
         let (low, high) = if self < other { (self, other) } else { (other, self) };
         // On the exponent of the larger, with 30 more bits: below 2^55.
         let gap = high.exponent().wrapping_sub(low.exponent());
@@ -92,24 +155,23 @@ impl Small {
         Self::new(larger.wrapping_add(added), scale).min(Self::ONE)
     }
 
-    /// The value in Q30, cut.
-    pub(super) fn q30(self) -> u32 {
-        (self.mantissa() << 7).checked_shr(255_u32.wrapping_sub(self.exponent())).unwrap_or(0)
+    fn weight(weight: u32) -> Self {
+        Self::new(weight.into(), 30)
     }
 
-    /// The mantissa in Q30 on the exponent `top` instead of the own one: below 2^30, and at least 2^29 for `top` itself.
-    pub(super) fn relative_to(self, top: u32) -> u32 {
-        (self.mantissa() << 6).checked_shr(top.saturating_sub(self.exponent())).unwrap_or(0)
+    fn word(self) -> u32 {
+        self.0
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ONE, Small, either, high, product};
+    use super::{Grade, ONE, Q30, Small, high, product};
 
     #[test]
     fn one_is_neutral_and_nothing_exceeds_it() {
         for a in [0, 1, 2, ONE / 3, ONE - 1, ONE] {
+            let either = |a, b| Q30(a).either(Q30(b)).word();
             assert_eq!((product(a, ONE), either(a, 0), either(a, ONE)), (a, a, ONE), "{a}");
         }
         assert_eq!(high(u32::MAX, u32::MAX), u32::MAX - 1, "the largest product");

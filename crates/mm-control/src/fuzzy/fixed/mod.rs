@@ -8,7 +8,7 @@
 //!
 //! | item | role |
 //! |---|---|
-//! | [`Tables`], [`Term`], [`Slot`], [`Rule`] | a rule base |
+//! | [`Tables`], [`Trigger`], [`Term`], [`Rule`], [`Slot`] | a rule base |
 //! | [`Engine`] | the checked engine, any number of inputs and outputs |
 //! | [`Curve`] | the engine as a function of one number |
 //! | [`Evaluate`] | what curves and surfaces of one input have in common |
@@ -20,13 +20,13 @@
 
 mod curve;
 mod engine;
+mod firing;
 mod grade;
 mod slot;
 mod slow;
 mod term;
 
 pub use curve::{Curve, Evaluate};
-pub use engine::{Engine, Premise, Rule, Tables};
+pub use engine::{Engine, Premise, Rule, Tables, Trigger};
 pub use slot::Slot;
-use slow::Sample;
 pub use term::Term;

@@ -1,6 +1,6 @@
 //! A trapezoid over the steps of an input.
 
-use super::grade::{ONE, Small, high};
+use super::grade::{Grade, ONE, Small, high};
 
 /// Farthest that a corner may lie from the middle of the range, in steps: 8192 half ranges.
 const FARTHEST: i32 = 1 << 28;
