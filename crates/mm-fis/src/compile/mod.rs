@@ -1,13 +1,25 @@
 //! The compiler: from a fuzzy system to tables for machines without a floating-point unit.
+//!
+//! ```text
+//! System --Q15::compile----------------> rule engine in fixed point   piecewise-linear Mamdani systems
+//! any f(x), f(x, y) --CompiledSurface--> table of knots               every system, within a bound
+//! ```
 
 mod error;
+mod fit;
+mod jumps;
 mod q15;
+mod request;
 mod row;
 mod steps;
+mod surface1;
 
 pub use error::CompileError;
+pub use jumps::Jump;
 pub use q15::{OutputRow, OwnedRule, OwnedTrigger, Q15};
+pub use request::Request;
 pub use row::Shape as SlotShape;
+pub use surface1::CompiledSurface;
 
 fn unsupported(part: impl Into<String>, reason: &'static str) -> CompileError {
     CompileError::Unsupported { part: part.into(), reason }

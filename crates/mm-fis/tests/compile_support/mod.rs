@@ -1,5 +1,7 @@
 //! Systems for the tests of the compiler: the two that are shipped, and random ones with a fixed seed.
-#![expect(dead_code, reason = "every test file uses a part of it")]
+#![allow(dead_code, reason = "every test file uses a part of it")]
+#![allow(clippy::allow_attributes, reason = "which part differs from file to file")]
+#![allow(unreachable_pub, reason = "a module of tests")]
 
 use mm_control::fuzzy::{
     Aggregation, And, Connective, Defuzzifier, Implication, MamdaniTables, MembershipFunction as Mf, Or,

@@ -11,6 +11,7 @@
 //! | [`Tables`], [`Trigger`], [`Term`], [`Rule`], [`Slot`] | a rule base |
 //! | [`Engine`] | the checked engine, any number of inputs and outputs |
 //! | [`Curve`] | the engine as a function of one number |
+//! | [`Surface1`], [`Surface2`] | tables of knots |
 //! | [`Evaluate`] | what curves and surfaces of one input have in common |
 //!
 //! Units: an input or output is an `i16` q that stands for `middle + half q / 32768` of its range.
@@ -24,9 +25,13 @@ mod firing;
 mod grade;
 mod slot;
 mod slow;
+mod surface1;
+mod surface2;
 mod term;
 
 pub use curve::{Curve, Evaluate};
 pub use engine::{Engine, Premise, Rule, Tables, Trigger};
 pub use slot::Slot;
+pub use surface1::{Section, Surface1};
+pub use surface2::Surface2;
 pub use term::Term;
