@@ -6,6 +6,7 @@
 //!                        \---compile--> Rust, C, TOML              fixed-point tables for firmware
 //! ```
 
+mod bundled;
 pub mod compile;
 mod coverage;
 mod engine;
@@ -15,6 +16,7 @@ mod read;
 mod system;
 mod write;
 
+pub use bundled::{bundled, bundled_text};
 pub use engine::{Accuracy, Engine};
 pub use fcl::read_fcl;
 pub use fis::read_fis;

@@ -2,6 +2,7 @@
 
 mod controller;
 mod disturbances;
+mod fuzzy;
 mod hardware;
 mod initial;
 mod robot;

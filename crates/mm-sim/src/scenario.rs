@@ -12,6 +12,7 @@ mod bundled;
 mod check;
 mod diagnostic;
 mod docs;
+mod fuzzy;
 mod gains;
 mod nearest;
 mod rules;
@@ -31,10 +32,10 @@ pub use docs::markdown;
 pub use schema::schema;
 pub use types::{
     Actuators, AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget,
-    Estimator, EstimatorKind, Expect, Friction, Gains, GainsFor, Initial, Integrator, Link, Misprints,
-    Motion, Motor, Motors, Outer, Peaks, PerAxis, PerChannel, Plant, PlantScale, PoseSource, Preset, Robot,
-    RobotFields, ScenarioFile, Segment, Sensors, Shape, Simulation, Sweep, TipStart, Totals, Trajectory,
-    Tune, WaypointPath,
+    Estimator, EstimatorKind, Expect, Friction, FuzzyEngine, Gains, GainsFor, Initial, Integrator, Link,
+    Misprints, Motion, Motor, Motors, Outer, Peaks, PerAxis, PerChannel, Plant, PlantScale, PoseSource,
+    Preset, Robot, RobotFields, ScenarioFile, Segment, Sensors, Shape, Simulation, Sweep, TipStart, Totals,
+    Trajectory, Tune, WaypointPath,
 };
 
 /// The name that an argument of the command line has in messages.
@@ -45,6 +46,8 @@ const SET_NAME: &str = "--set";
 pub struct Loaded {
     /// The scenario.
     pub file: ScenarioFile,
+    /// The fuzzy system that `controller.fis` names.
+    pub fis: Option<mm_fis::System>,
     sources: Vec<Source>,
     root: Node,
     folder: PathBuf,
@@ -210,6 +213,7 @@ fn assemble((name, text): (&str, &str), files: &Files<'_>, sets: &[String]) -> R
     robot_file(&mut root, &mut sources, files, &mut problems)?;
     waypoints::file(&mut root, &mut sources, files, &mut problems)?;
     gains::resolve(&mut root, &mut sources, files, &mut problems)?;
+    let fis = fuzzy::file(&root, &mut sources, files, &mut problems);
     if !problems.is_empty() {
         return Err(ScenarioError::new(&sources, problems));
     }
@@ -217,7 +221,7 @@ fn assemble((name, text): (&str, &str), files: &Files<'_>, sets: &[String]) -> R
         let problem = Problem::new("", error.to_string(), root.place.clone());
         ScenarioError::new(&sources, vec![problem])
     })?;
-    Ok(Loaded { file, sources, root, folder: files.folder.to_path_buf(), sets: sets.to_vec() })
+    Ok(Loaded { file, fis, sources, root, folder: files.folder.to_path_buf(), sets: sets.to_vec() })
 }
 
 fn parse(sources: &[Source], index: usize) -> Result<Node, ScenarioError> {

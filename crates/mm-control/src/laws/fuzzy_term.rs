@@ -3,6 +3,7 @@
 use mm_model::{Force, Real, Velocity};
 
 use super::channel_zip;
+use crate::fuzzy::fixed::{self, Scaled, Surface1};
 use crate::fuzzy::{Bundled, Curve, FuzzyError, FuzzySystem, MamdaniTables, Surface};
 
 /// Knots of the tabulated fuzzy surface.
@@ -14,6 +15,8 @@ const KNOTS: usize = 65;
 /// | --- | --- | --- | --- |
 /// | `Table` | linear between 65 equally spaced knots; a jump becomes a slope | 70 numbers | fastest in floating point |
 /// | `Rules` | exact | the tables, in flash | a few hundred instructions |
+/// | `Q15` | 16 bits: two units of 2^-15 of half the range beyond the rounding of input and breakpoints | the tables, in flash | as `Rules`, without floating point |
+/// | `Surface` | the bound it was compiled for; a jump stays one | the knots, in flash | fastest without floating point |
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum FuzzyTerm<T: 'static> {
@@ -21,6 +24,10 @@ pub enum FuzzyTerm<T: 'static> {
     Table(Surface<T, KNOTS>),
     /// The rules themselves.
     Rules(Curve<'static, T, 32>),
+    /// The rules in whole numbers.
+    Q15(Scaled<T, fixed::Curve<'static, 16>>),
+    /// A compiled table of whole numbers.
+    Surface(Scaled<T, Surface1<'static>>),
 }
 
 impl<T: Real> FuzzyTerm<T> {
@@ -38,6 +45,33 @@ impl<T: Real> FuzzyTerm<T> {
     /// As [`Curve::try_new`].
     pub fn rules(tables: &'static MamdaniTables<'static, T>) -> Result<Self, FuzzyError> {
         Curve::try_new(tables).map(Self::Rules)
+    }
+
+    /// A rule base in whole numbers between the ranges of its input and output.
+    ///
+    /// # Errors
+    /// As [`fixed::Curve::try_new`] and [`Scaled::try_new`].
+    pub fn q15(
+        tables: &'static fixed::Tables<'static>,
+        input_range: (T, T),
+        output_range: (T, T),
+    ) -> Result<Self, FuzzyError> {
+        Scaled::try_new(fixed::Curve::try_new(tables)?, input_range, output_range).map(Self::Q15)
+    }
+
+    /// A compiled surface between the ranges of its input and output.
+    ///
+    /// # Errors
+    /// As [`Scaled::try_new`]; [`FuzzyError::OutOfRange`] (`surface`) for one that [`Surface1::check`] refuses.
+    pub fn surface(
+        surface: Surface1<'static>,
+        input_range: (T, T),
+        output_range: (T, T),
+    ) -> Result<Self, FuzzyError> {
+        if !surface.check() {
+            return Err(FuzzyError::OutOfRange("surface"));
+        }
+        Scaled::try_new(surface, input_range, output_range).map(Self::Surface)
     }
 
     /// What [`Bfsmc`](super::Bfsmc) uses unless told otherwise.
@@ -63,7 +97,9 @@ impl<T: Real> FuzzyTerm<T> {
     pub(super) fn force<const N: usize>(&self, x: &Velocity<T, N>, k: &Force<T, N>) -> Force<T, N> {
         match self {
             Self::Table(table) => channel_zip(x, k, |x, k| k * table.evaluate(x)),
-            Self::Rules(rules) => by_rules(rules, x, k),
+            Self::Rules(rules) => out_of_line(rules, x, k),
+            Self::Q15(rules) => out_of_line(rules, x, k),
+            Self::Surface(surface) => out_of_line(surface, x, k),
         }
     }
 
@@ -82,14 +118,14 @@ impl<T: Real> FuzzyTerm<T> {
     }
 }
 
-/// The force by the rules, out of line: it shall not grow the code of the usual case.
+/// The force by what is no table of floating-point knots, out of line: it shall not grow the code of the usual case.
 #[inline(never)]
-fn by_rules<T: Real, const N: usize>(
-    rules: &impl FuzzySystem<T>,
+fn out_of_line<T: Real, const N: usize>(
+    system: &impl FuzzySystem<T>,
     x: &Velocity<T, N>,
     k: &Force<T, N>,
 ) -> Force<T, N> {
-    channel_zip(x, k, |x, k| k * rules.evaluate(x))
+    channel_zip(x, k, |x, k| k * system.evaluate(x))
 }
 
 impl<T: Real> FuzzySystem<T> for FuzzyTerm<T> {
@@ -97,6 +133,8 @@ impl<T: Real> FuzzySystem<T> for FuzzyTerm<T> {
         match self {
             Self::Table(table) => table.evaluate(x),
             Self::Rules(rules) => rules.evaluate(x),
+            Self::Q15(rules) => rules.evaluate(x),
+            Self::Surface(surface) => surface.evaluate(x),
         }
     }
 
@@ -104,6 +142,8 @@ impl<T: Real> FuzzySystem<T> for FuzzyTerm<T> {
         match self {
             Self::Table(table) => table.input_range(),
             Self::Rules(rules) => rules.input_range(),
+            Self::Q15(rules) => rules.input_range(),
+            Self::Surface(surface) => surface.input_range(),
         }
     }
 }

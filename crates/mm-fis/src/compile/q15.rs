@@ -151,6 +151,39 @@ impl Q15 {
         Ok(compiled)
     }
 
+    /// The tables, stored for the rest of the program, as a control law needs them.
+    #[must_use]
+    pub fn leak(&self) -> &'static Tables<'static> {
+        let rules = |rules: &[OwnedRule]| -> &'static [Rule<'static>] {
+            Vec::leak(
+                rules
+                    .iter()
+                    .map(|rule| Rule {
+                        premises: Vec::leak(rule.premises.clone()),
+                        slots: Vec::leak(rule.slots.clone()),
+                        weight: rule.weight,
+                        connective: rule.connective,
+                    })
+                    .collect(),
+            )
+        };
+        let triggers = |terms: &Vec<OwnedTrigger>| -> &'static [Trigger<'static>] {
+            let owned = |trigger: &OwnedTrigger| Trigger {
+                term: Term::new(trigger.corners),
+                rules: rules(&trigger.rules),
+            };
+            Vec::leak(terms.iter().map(owned).collect())
+        };
+        Box::leak(Box::new(Tables {
+            inputs: Vec::leak(self.inputs.iter().map(triggers).collect()),
+            rest: rules(&self.rest),
+            outputs: Vec::leak(self.outputs.iter().map(|row| &*Vec::leak(row.slots())).collect()),
+            and: self.and,
+            or: self.or,
+            odd: self.odd,
+        }))
+    }
+
     /// Makes the tables and hands them to `work`; they live as long as that call.
     pub fn with_tables<R>(&self, work: impl FnOnce(&Tables<'_>) -> R) -> R {
         let rules: Vec<Vec<Vec<Rule<'_>>>> = self

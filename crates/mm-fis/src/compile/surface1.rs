@@ -45,6 +45,13 @@ impl CompiledSurface {
         Surface1 { first, others, knots: &self.knots, odd: self.odd }
     }
 
+    /// The surface, stored for the rest of the program, as a control law needs it.
+    #[must_use]
+    pub fn leak(&self) -> Surface1<'static> {
+        let Surface1 { first, others, knots, odd } = self.surface();
+        Surface1 { first, others: Vec::leak(others.to_vec()), knots: Vec::leak(knots.to_vec()), odd }
+    }
+
     /// Bytes in flash: two for a knot, twelve for a section.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -204,9 +211,9 @@ impl Samples {
         for _ in 0..8 {
             let middle = 0.5 * (fails + meets);
             if Fitted::fewest(self, parts, middle, request).is_some() {
-                meets = middle
+                meets = middle;
             } else {
-                fails = middle
+                fails = middle;
             }
         }
         let steepest = (self.domain().0..self.domain().1)

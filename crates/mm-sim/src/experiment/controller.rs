@@ -47,7 +47,11 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
     let outer = outer(&robot, &file.controller.outer);
     let estimator = super::hardware::estimator(loaded)?;
     let delay = file.controller.estimator.delay_s;
-    let stack = ControlStack::try_new(robot, kind, StackParams { period, outer, gains, estimator });
+    let params = StackParams { period, outer, gains, estimator };
+    let stack = match super::fuzzy::term(loaded, kind)? {
+        Some(term) => ControlStack::with_fuzzy(robot, kind, term, params),
+        None => ControlStack::try_new(robot, kind, params),
+    };
     stack.and_then(|stack| stack.with_delay(delay)).map_err(|error| {
         let key = match error {
             SetupError::Param(error) => {

@@ -19,7 +19,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub(super) use controller::SAME_KEYS;
-pub use controller::{Controller, ControllerKind, Gains, GainsFor, Misprints, Outer, PerAxis, PerChannel};
+pub use controller::{
+    Controller, ControllerKind, FuzzyEngine, Gains, GainsFor, Misprints, Outer, PerAxis, PerChannel,
+};
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
 pub use hardware::{Actuators, Estimator, EstimatorKind, Motor, Motors, PoseSource, Sensors};

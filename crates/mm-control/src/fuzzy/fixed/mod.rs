@@ -13,6 +13,7 @@
 //! | [`Curve`] | the engine as a function of one number |
 //! | [`Surface1`], [`Surface2`] | tables of knots |
 //! | [`Evaluate`] | what curves and surfaces of one input have in common |
+//! | [`Scaled`] | such a map between ranges of floating-point numbers |
 //!
 //! Units: an input or output is an `i16` q that stands for `middle + half q / 32768` of its range.
 //!
@@ -23,6 +24,7 @@ mod curve;
 mod engine;
 mod firing;
 mod grade;
+mod scaled;
 mod slot;
 mod slow;
 mod surface1;
@@ -31,6 +33,7 @@ mod term;
 
 pub use curve::{Curve, Evaluate};
 pub use engine::{Engine, Premise, Rule, Tables, Trigger};
+pub use scaled::Scaled;
 pub use slot::Slot;
 pub use surface1::{Section, Surface1};
 pub use surface2::Surface2;

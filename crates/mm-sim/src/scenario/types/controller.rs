@@ -32,9 +32,32 @@ pub struct Controller {
     /// A TOML file with a table for each law, as `mmsim tune` writes it, over `gains`; sought in the folder of the scenario file,
     /// a name given by `--set` from the working directory.
     pub gains_file: Option<String>,
+    /// A fuzzy system of one input and one output for the laws `bfsmc` and `bfsmc-thesis`, instead of their own: a `.fis` or
+    /// `.fcl` file, sought in the folder of the scenario file, a name given by `--set` from the working directory; or the bundled
+    /// `thesis` or `smooth`. The input is s over `gains.fuzzy_scale`, the output is multiplied by `gains.fuzzy_gain`.
+    pub fis: Option<String>,
+    /// How the fuzzy system of the law is evaluated. Default: `table` for `bfsmc`, `exact` for `bfsmc-thesis`.
+    pub fuzzy_engine: Option<FuzzyEngine>,
     /// How configuration and velocity are found from what the sensors read.
     #[serde(default)]
     pub estimator: Estimator,
+}
+
+/// How a fuzzy system is evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum FuzzyEngine {
+    /// By 65 equally spaced knots with straight lines between them, in floating point.
+    Table,
+    /// By its rules, with the exact centroid.
+    Exact,
+    /// By its rules, with the centroid of 101 samples, as MATLAB computes it.
+    Sampled,
+    /// By its rules in integers, input and output of 16 bits.
+    Q15,
+    /// By a compiled table of integers that keeps jumps, input and output of 16 bits.
+    Surface,
 }
 
 /// Gains of single laws: a table for each law's name.
