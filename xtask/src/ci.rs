@@ -7,7 +7,7 @@ use anyhow::Result;
 
 use crate::mmsim::{Mmsim, Profile};
 use crate::shell::{answers, cargo, run as run_command, watch};
-use crate::{scenarios, targets};
+use crate::{fuzzy_peers, scenarios, targets};
 
 /// How a step ended, unless it failed.
 enum End {
@@ -26,7 +26,7 @@ struct Tests {
 /// A step: what it is called and what it does.
 type Step = (&'static str, fn(&mut Tests) -> Result<End>);
 
-const STEPS: [Step; 8] = [
+const STEPS: [Step; 9] = [
     ("format", |_| cargo_step(&["fmt", "--all", "--check"])),
     ("clippy", |_| {
         cargo_step(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])
@@ -42,6 +42,10 @@ const STEPS: [Step; 8] = [
     }),
     ("tests, dev profile", |tests| test(tests, &[])),
     ("tests, testrelease profile", |tests| test(tests, &["--profile", "testrelease"])),
+    ("fuzzy engines from PyPI", |tests| {
+        fuzzy_peers::check(|line| tests.add_python(line))?;
+        Ok(End::Done)
+    }),
     ("scenarios", |_| {
         scenarios::run(&Mmsim::find(None, Profile::TestRelease)?)?;
         Ok(End::Done)
@@ -110,8 +114,20 @@ fn deny() -> Result<End> {
 impl Tests {
     /// Adds the numbers of a line such as `test result: ok. 3 passed; 0 failed; 0 ignored; ...`.
     fn add(&mut self, line: &str) {
-        let Some(counts) = line.strip_prefix("test result: ") else { return };
-        let words: Vec<&str> = counts.split([' ', ';', '.']).filter(|word| !word.is_empty()).collect();
+        if let Some(counts) = line.strip_prefix("test result: ") {
+            self.count(counts);
+        }
+    }
+
+    /// Adds the numbers of the last line of pytest, such as `1 failed, 3 passed in 0.12s`.
+    fn add_python(&mut self, line: &str) {
+        if line.contains(" in ") && line.starts_with(|first: char| first.is_ascii_digit()) {
+            self.count(line);
+        }
+    }
+
+    fn count(&mut self, counts: &str) {
+        let words: Vec<&str> = counts.split([' ', ';', ',', '.']).filter(|word| !word.is_empty()).collect();
         for pair in words.windows(2) {
             if let [number, word] = pair
                 && let Ok(number) = number.parse::<u64>()
@@ -143,5 +159,9 @@ mod tests {
         tests.add("test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out; finished in 1.50s");
         tests.add("test some::test ... ok");
         assert_eq!(tests, Tests { passed: 15, failed: 2 }, "sums of both lines");
+        tests.add_python("1 failed, 3 passed, 7 warnings in 0.12s (0:00:01)");
+        tests.add_python("81 passed in 51.40s");
+        tests.add_python("........ [ 88%]");
+        assert_eq!(tests, Tests { passed: 99, failed: 3 }, "and of pytest's");
     }
 }

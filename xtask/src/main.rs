@@ -5,6 +5,7 @@
 mod ci;
 mod claim;
 mod count;
+mod fuzzy_peers;
 mod grid;
 mod mmsim;
 mod parallel;
@@ -24,6 +25,7 @@ cargo xtask <job>
   ci                  format, lints, tests, docs, bare-metal builds, scenarios, dependencies: everything a change has to pass
   targets             builds mm-model and mm-control for bare metal [--fallback: with Debian's compiler]
   scenarios           runs every bundled scenario and checks its [expect] [--mmsim FILE: with this command]
+  fuzzy-peers         compares the fuzzy engine with engines from PyPI, system by system
   grid                maps the gains of bsmc on square-compare into docs/grid.csv [--mmsim FILE]
   claim               judges the thesis's claim on square-compare into docs/claim.csv [--mmsim FILE]
   bench-instructions  counts the instructions of each operation with callgrind [--json] [--target-cpu CPU]
@@ -61,6 +63,11 @@ fn run() -> Result<ExitCode> {
             let command = arguments.value("--mmsim")?;
             arguments.finish()?;
             scenarios::run(&mmsim::Mmsim::find(command, mmsim::Profile::Release)?)?;
+            ExitCode::SUCCESS
+        }
+        "fuzzy-peers" => {
+            arguments.finish()?;
+            fuzzy_peers::check(|_| ())?;
             ExitCode::SUCCESS
         }
         "grid" => {
