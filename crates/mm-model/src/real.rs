@@ -48,12 +48,6 @@ pub trait Real:
     /// A count as a number, rounded to the nearest; exact up to 2^24.
     #[must_use]
     fn from_u32(value: u32) -> Self;
-    /// A 16-bit whole number; exact.
-    #[must_use]
-    fn from_i16(value: i16) -> Self;
-    /// The nearest 16-bit whole number, halves away from zero; the nearest end beyond its range, 0 for NaN.
-    #[must_use]
-    fn round_to_i16(self) -> i16;
     /// Sine and cosine of an angle in radians.
     ///
     /// A NaN or infinite angle gives two NaN.
@@ -157,16 +151,6 @@ impl Real for f64 {
         Self::from(value)
     }
     #[inline]
-    fn from_i16(value: i16) -> Self {
-        Self::from(value)
-    }
-    #[expect(clippy::cast_possible_truncation, reason = "the cast saturates, which is what this does")]
-    #[inline]
-    fn round_to_i16(self) -> i16 {
-        // The sum is exact where it matters: below 2^15 half a unit fits the significand.
-        (if self < 0.0 { self - 0.5 } else { self + 0.5 }) as i16
-    }
-    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         libm::sincos(self)
     }
@@ -236,16 +220,6 @@ impl Real for f32 {
     #[inline]
     fn from_u32(value: u32) -> Self {
         value as Self
-    }
-    #[inline]
-    fn from_i16(value: i16) -> Self {
-        Self::from(value)
-    }
-    #[expect(clippy::cast_possible_truncation, reason = "the cast saturates, which is what this does")]
-    #[inline]
-    fn round_to_i16(self) -> i16 {
-        // The sum is exact where it matters: below 2^15 half a unit fits the significand.
-        (if self < 0.0 { self - 0.5 } else { self + 0.5 }) as i16
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {

@@ -5,6 +5,8 @@
 //! any f(x), f(x, y) --CompiledSurface--> table of knots               every system, within a bound
 //! ```
 
+mod emit1;
+mod emit_q15;
 mod error;
 mod fit;
 mod jumps;
@@ -13,6 +15,7 @@ mod request;
 mod row;
 mod steps;
 mod surface1;
+mod text;
 
 pub use error::CompileError;
 pub use jumps::Jump;
@@ -20,6 +23,7 @@ pub use q15::{OutputRow, OwnedRule, OwnedTrigger, Q15};
 pub use request::Request;
 pub use row::Shape as SlotShape;
 pub use surface1::CompiledSurface;
+pub use text::Origin;
 
 fn unsupported(part: impl Into<String>, reason: &'static str) -> CompileError {
     CompileError::Unsupported { part: part.into(), reason }

@@ -1,4 +1,8 @@
 //! How strongly each slot fires.
+#![expect(
+    clippy::arithmetic_side_effects,
+    reason = "plain operators state their bound; the dev profile checks them all"
+)]
 
 use super::engine::{Rule, Tables};
 use super::grade::{Grade, ONE};
@@ -17,7 +21,7 @@ impl Sample<'_> {
     #[inline]
     const fn position(self, input: i16) -> i32 {
         let position = widened(input);
-        if self.turned { position.wrapping_neg() } else { position }
+        if self.turned { -position } else { position }
     }
 }
 

@@ -3,6 +3,10 @@
 //! Two notations. Q30, the fast one: `ONE` is 2^30. Small, for an input where all strengths are tiny and their ratio still decides: 8 bits
 //! of exponent above 24 bits of mantissa with its leading bit, so that the order of the words is the order of the values; a
 //! mantissa m and an exponent e > 0 mean `m 2^(e - 278)`, and 0 is zero.
+#![expect(
+    clippy::arithmetic_side_effects,
+    reason = "plain operators state their bound; the dev profile checks them all"
+)]
 
 use super::term::Term;
 
@@ -37,7 +41,7 @@ impl Grade for Q30 {
     fn degree(term: &Term, position: i32, not: bool) -> Self {
         let degree = term.degree(position);
         // Degrees are at most one.
-        Self(if not { ONE.wrapping_sub(degree) } else { degree })
+        Self(if not { ONE - degree } else { degree })
     }
 
     #[inline]
@@ -48,7 +52,7 @@ impl Grade for Q30 {
     #[inline]
     fn either(self, other: Self) -> Self {
         // The sum is at most 2^31, the product at most the smaller of the two.
-        Self(self.0.wrapping_add(other.0).wrapping_sub(product(self.0, other.0)))
+        Self(self.0 + other.0 - product(self.0, other.0))
     }
 
     #[inline]
@@ -66,7 +70,7 @@ impl Grade for Q30 {
 #[expect(clippy::as_conversions, reason = "a word shifted by a word fits a word")]
 #[inline]
 pub(super) const fn high(a: u32, b: u32) -> u32 {
-    ((a as u64).wrapping_mul(b as u64) >> 32) as u32
+    ((a as u64 * b as u64) >> 32) as u32
 }
 
 /// Product of two numbers in Q30, rounded; at most `ONE` if both are.
@@ -78,7 +82,7 @@ pub(super) const fn high(a: u32, b: u32) -> u32 {
 #[inline]
 pub(super) const fn product(a: u32, b: u32) -> u32 {
     // Below 2^60 + 2^29.
-    ((a as u64).wrapping_mul(b as u64).wrapping_add(1 << 29) >> 30) as u32
+    ((a as u64 * b as u64 + (1 << 29)) >> 30) as u32
 }
 
 /// Number in small notation.
@@ -95,12 +99,8 @@ impl Small {
         if number == 0 || exponent == 0 {
             return Self::ZERO;
         }
-        let mantissa = (number.wrapping_shl(lead) >> 40) as u32;
+        let mantissa = ((number << lead) >> 40) as u32;
         Self((exponent.min(255) << 24) | mantissa)
-    }
-
-    pub(super) const fn is_zero(self) -> bool {
-        self.0 == 0
     }
 
     const fn mantissa(self) -> u32 {
@@ -114,12 +114,12 @@ impl Small {
     /// How far the value of the mantissa, as a whole number, has to be moved down.
     const fn scale(self) -> u32 {
         // Exponents end at 255.
-        278_u32.wrapping_sub(self.exponent())
+        278 - self.exponent()
     }
 
     /// The value in Q30, cut.
     pub(super) fn q30(self) -> u32 {
-        (self.mantissa() << 7).checked_shr(255_u32.wrapping_sub(self.exponent())).unwrap_or(0)
+        (self.mantissa() << 7).checked_shr(255 - self.exponent()).unwrap_or(0)
     }
 
     /// The mantissa in Q30 on the exponent `top` instead of the own one: below 2^30, and at least 2^29 for `top` itself.
@@ -138,21 +138,21 @@ impl Grade for Small {
 
     fn product(self, other: Self) -> Self {
         // Two mantissas make 48 bits, two scales at most 556.
-        let product = u64::from(self.mantissa()).wrapping_mul(u64::from(other.mantissa()));
-        Self::new(product, self.scale().wrapping_add(other.scale()))
+        let product = u64::from(self.mantissa()) * u64::from(other.mantissa());
+        Self::new(product, self.scale() + other.scale())
     }
 
     fn either(self, other: Self) -> Self {
         let (low, high) = if self < other { (self, other) } else { (other, self) };
         // On the exponent of the larger, with 30 more bits: below 2^55.
-        let gap = high.exponent().wrapping_sub(low.exponent());
+        let gap = high.exponent() - low.exponent();
         let larger = u64::from(high.mantissa()) << 30;
         let smaller = (u64::from(low.mantissa()) << 30).checked_shr(gap).unwrap_or(0);
         // The part of the smaller one that the larger leaves, rounded down in Q24: below 2^55, shifted by 24 first.
         let rest = u64::from(ONE >> 6).saturating_sub(u64::from(high.q30() >> 6));
-        let added = (smaller >> 24).wrapping_mul(rest);
-        let scale = high.scale().wrapping_add(30);
-        Self::new(larger.wrapping_add(added), scale).min(Self::ONE)
+        let added = (smaller >> 24) * rest;
+        let scale = high.scale() + 30;
+        Self::new(larger + added, scale).min(Self::ONE)
     }
 
     fn weight(weight: u32) -> Self {
@@ -194,6 +194,6 @@ mod tests {
                 assert_eq!(a < b, value(a) < value(b), "order of {x} and {y}");
             }
         }
-        assert!(Small::new(1, 300).is_zero(), "far too small");
+        assert!(Small::new(1, 300) == Small::ZERO, "far too small");
     }
 }

@@ -12,14 +12,17 @@
 //! | [`Engine`] | the checked engine, any number of inputs and outputs |
 //! | [`Curve`] | the engine as a function of one number |
 //! | [`Surface1`], [`Surface2`] | tables of knots |
+//! | [`Scaled`] | any of them between floating-point numbers, for a control law |
+//! | [`THESIS_Q15`], [`SMOOTH_Q15`], [`THESIS_SURFACE`], [`SMOOTH_SURFACE`] | the shipped rule bases, compiled |
 //! | [`Evaluate`] | what curves and surfaces of one input have in common |
-//! | [`Scaled`] | such a map between ranges of floating-point numbers |
 //!
 //! Units: an input or output is an `i16` q that stands for `middle + half q / 32768` of its range.
 //!
-//! Every operation names its overflow rule: `wrapping_` with the bound that keeps it from wrapping, `saturating_`, `checked_`.
+//! Every operation names its overflow rule: `wrapping_`, `saturating_`, `checked_`, or a plain operator with the bound that keeps it from
+//! overflowing, which the dev profile checks in every test.
 #![deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::float_arithmetic)]
 
+mod bundled;
 mod curve;
 mod engine;
 mod firing;
@@ -31,6 +34,7 @@ mod surface1;
 mod surface2;
 mod term;
 
+pub use bundled::{SMOOTH_Q15, SMOOTH_SURFACE, THESIS_Q15, THESIS_SURFACE};
 pub use curve::{Curve, Evaluate};
 pub use engine::{Engine, Premise, Rule, Tables, Trigger};
 pub use scaled::Scaled;

@@ -1,85 +1,94 @@
-//! A map of whole numbers between ranges of floating-point numbers.
-#![expect(
-    clippy::arithmetic_side_effects,
-    reason = "this is the border to floating-point numbers, whose arithmetic has no side effects"
-)]
+//! A fixed-point system between floating-point numbers, for a control law.
+#![expect(clippy::arithmetic_side_effects, reason = "floating-point arithmetic of T has none")]
 
-use super::Evaluate;
-use crate::fuzzy::{FuzzyError, FuzzySystem};
 use mm_model::Real;
 
-/// A [`Curve`](super::Curve) or [`Surface1`](super::Surface1) with floating-point numbers in and out, for a control law.
+use super::curve::Evaluate;
+use crate::fuzzy::{FuzzyError, FuzzySystem};
+
+/// Largest input and output of an adapted system, in steps.
+const MOST: u32 = 32767;
+
+/// A fixed-point system of one input and one output with its ranges: what a control law takes.
 ///
-/// Equation: `y = m_y + h_y E(q) / 32768` with `q = round(32768 (x - m_x) / h_x)`, m the middles of the ranges and h half their
-/// widths.
+/// Equation: `q = round(32768 (x - middle) / half)` of the input range, held to -32767..=32767, and back in the output range.
 ///
-/// Convention: an input beyond its range counts as the nearer end, of which the upper one is a unit short (32767). A NaN counts as the
-/// middle of the range.
+/// Convention: halves are rounded away from the middle, so that an odd system stays exactly odd where both ranges are centred on 0. A NaN gives
+/// the middle of the output range. The lower end of the input is met to one step, as the upper one is.
+///
+/// Cost: two multiplications and the conversions besides the system's own, in the precision of `T` alone.
 ///
 /// # Examples
 /// ```
 /// use mm_control::fuzzy::FuzzySystem;
-/// use mm_control::fuzzy::fixed::{Scaled, Section, Surface1};
+/// use mm_control::fuzzy::fixed::{SMOOTH_SURFACE, Scaled};
 ///
-/// let ramp = Surface1 {
-///     first: Section { start: 0, knot: 0, shift: 14 },
-///     others: &[],
-///     knots: &[0, 8192, 16384, 16384],
-///     odd: true,
-/// };
-/// let map = Scaled::<f32, _>::try_new(ramp, (-2.0, 2.0), (-10.0, 10.0))?;
-/// assert_eq!([1.0, -0.5, 9.0].map(|x| map.evaluate(x)), [2.5, -1.25, 5.0]);
+/// let system = Scaled::<f32, _>::try_new(SMOOTH_SURFACE, (-1.0, 1.0), (-4.0 / 3.0, 4.0 / 3.0))?;
+/// assert_eq!(system.evaluate(0.0), 0.0);
+/// assert_eq!(system.evaluate(0.3), -system.evaluate(-0.3));
+/// assert!((system.evaluate(5.0) + 1.0).abs() < 2e-3);
 /// # Ok::<(), mm_control::fuzzy::FuzzyError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scaled<T, E> {
-    map: E,
+    system: E,
     input_range: (T, T),
     input_middle: T,
-    per_input: T,
+    steps_per_unit: T,
     output_middle: T,
-    output_unit: T,
+    unit_per_step: T,
 }
 
 impl<T: Real, E: Evaluate> Scaled<T, E> {
-    /// Puts a map between two ranges.
+    /// Puts a system between the ranges it was compiled for.
     ///
     /// # Errors
-    /// [`FuzzyError::NonFinite`] or [`FuzzyError::Inverted`], naming `input_range` or `output_range`.
-    pub fn try_new(map: E, input_range: (T, T), output_range: (T, T)) -> Result<Self, FuzzyError> {
-        let parts = |(lo, hi): (T, T), name| {
-            let (middle, half) = (T::HALF * lo + T::HALF * hi, T::HALF * hi - T::HALF * lo);
-            if !(middle.is_finite() && half.is_finite()) {
-                return Err(FuzzyError::NonFinite(name));
-            }
-            if half > T::ZERO { Ok((middle, half)) } else { Err(FuzzyError::Inverted(name)) }
-        };
-        let (input_middle, input_half) = parts(input_range, "input_range")?;
-        let (output_middle, output_half) = parts(output_range, "output_range")?;
-        let units = T::from_u32(32768);
-        let per_input = units / input_half;
-        if !per_input.is_finite() {
-            return Err(FuzzyError::NonFinite("input_range"));
+    /// [`FuzzyError::NonFinite`] or [`FuzzyError::Inverted`] for a range (`input_range`, `output_range`).
+    pub fn try_new(system: E, input_range: (T, T), output_range: (T, T)) -> Result<Self, FuzzyError> {
+        let (input_middle, input_half) = middle_and_half(input_range, "input_range")?;
+        let (output_middle, output_half) = middle_and_half(output_range, "output_range")?;
+        let steps = T::from_u32(32768);
+        let steps_per_unit = steps / input_half;
+        if !steps_per_unit.is_finite() {
+            return Err(FuzzyError::OutOfRange("input_range"));
         }
-        let output_unit = output_half / units;
-        Ok(Self { map, input_range, input_middle, per_input, output_middle, output_unit })
+        let unit_per_step = output_half / steps;
+        Ok(Self { system, input_range, input_middle, steps_per_unit, output_middle, unit_per_step })
     }
 
-    /// The map of whole numbers.
+    /// The system behind it.
     #[must_use]
-    pub const fn map(&self) -> &E {
-        &self.map
+    pub const fn system(&self) -> &E {
+        &self.system
     }
 }
 
 impl<T: Real, E: Evaluate> FuzzySystem<T> for Scaled<T, E> {
     #[inline]
     fn evaluate(&self, x: T) -> T {
-        let q = ((x - self.input_middle) * self.per_input).round_to_i16();
-        self.output_middle + self.output_unit * T::from_i16(self.map.evaluate(q))
+        let u = (x - self.input_middle) * self.steps_per_unit;
+        let magnitude = magnitude_in_steps(u);
+        // At most 32767, so that it has a negative.
+        let q = if u < T::ZERO { magnitude.wrapping_neg() } else { magnitude };
+        let y = if u.abs() >= T::ZERO { self.system.evaluate(q) } else { 0 };
+        let size = T::from_u32(u32::from(y.unsigned_abs())) * self.unit_per_step;
+        if y < 0 { self.output_middle - size } else { self.output_middle + size }
     }
 
     fn input_range(&self) -> (T, T) {
         self.input_range
     }
+}
+
+/// A magnitude rounded to whole steps and held to 32767.
+#[inline]
+fn magnitude_in_steps<T: Real>(u: T) -> i16 {
+    // A NaN fails the comparison of `min` and becomes the largest one, and is answered apart.
+    let (whole, _) = (u.abs().min(T::from_u32(MOST)) + T::HALF).split_index();
+    i16::try_from(whole).unwrap_or(i16::MAX)
+}
+
+fn middle_and_half<T: Real>((lo, hi): (T, T), name: &'static str) -> Result<(T, T), FuzzyError> {
+    crate::fuzzy::tables::check_range((lo, hi), name)?;
+    Ok((T::HALF * lo + T::HALF * hi, T::HALF * hi - T::HALF * lo))
 }

@@ -1,4 +1,8 @@
 //! What an output term contributes to the centroid, as coefficients of a polynomial in its firing strength.
+#![expect(
+    clippy::arithmetic_side_effects,
+    reason = "plain operators state their bound; the dev profile checks them all"
+)]
 
 use super::grade::{ONE, high};
 use crate::fuzzy::FuzzyError;
@@ -63,8 +67,8 @@ impl Slot {
         }
         // The sides cross where the gap at the foot is used up by both slants. Differences are at most 2^17.
         let shared = Piece::new([a, b, lower_c, lower_d], scale);
-        let gap = lower_d.wrapping_sub(a).cast_unsigned();
-        let slant = b.wrapping_sub(a).wrapping_add(lower_d.wrapping_sub(lower_c)).cast_unsigned();
+        let gap = (lower_d - a).cast_unsigned();
+        let slant = ((b - a) + (lower_d - lower_c)).cast_unsigned();
         let crossing = if slant > gap { ratio(gap, slant) } else { ONE };
         Self { own, crossing, shared }
     }
@@ -76,13 +80,13 @@ impl Slot {
     pub const fn scaled(corners: [i32; 4], scale: u32) -> Self {
         let [a, b, c, d] = ordered(corners);
         // Twice the area, 2 (d - a) - l - r = (d - a) + (c - b), and six times the moment; all below 2^17 and 3 2^33.
-        let twice = d.wrapping_sub(a).wrapping_add(c.wrapping_sub(b));
+        let twice = (d - a) + (c - b);
         let [a, b, c, d] = [wide(a), wide(b), wide(c), wide(d)];
-        let upper = d.wrapping_mul(d).wrapping_add(d.wrapping_mul(c)).wrapping_add(c.wrapping_mul(c));
-        let lower = a.wrapping_mul(a).wrapping_add(a.wrapping_mul(b)).wrapping_add(b.wrapping_mul(b));
-        let six = upper.wrapping_sub(lower);
+        let upper = d * d + d * c + c * c;
+        let lower = a * a + a * b + b * b;
+        let six = upper - lower;
         // 256 six / 6 / (twice / 2), rounded down after adding a half.
-        let (part, whole) = (six.wrapping_mul(512).wrapping_add(wide(twice)), wide(twice).wrapping_mul(6));
+        let (part, whole) = (six * 512 + 3 * wide(twice), 6 * wide(twice));
         let middle = match part.checked_div_euclid(whole) {
             Some(middle) => narrow(middle),
             None => 0,
@@ -100,8 +104,7 @@ impl Slot {
     /// Checks what the overflow bounds of the engine rest on.
     pub(super) fn check(&self) -> Result<(), FuzzyError> {
         let Self { own, crossing, shared } = self;
-        let fits =
-            own.area <= 1 << 29 && own.narrowing <= own.area.wrapping_mul(2) && shared.area <= own.area;
+        let fits = own.area <= 1 << 29 && own.narrowing <= 2 * own.area && shared.area <= own.area;
         // Up to the crossing a shared piece keeps half of its width.
         let crosses = high(*crossing, shared.narrowing) <= shared.area.div_ceil(2);
         if fits && crosses { Ok(()) } else { Err(FuzzyError::OutOfRange("outputs.scale")) }
@@ -118,8 +121,8 @@ impl Slot {
     pub(super) fn add(&self, sum: &mut Moments, linear: u32, top: u32, shift: u32) {
         let slice = self.own.slice(linear, top, shift);
         // Areas sum up to less than 2^32 and moments to less than 2^58, as `Engine::try_new` checks.
-        sum.area = sum.area.wrapping_add(slice.area);
-        sum.moment = sum.moment.wrapping_add(slice.moment);
+        sum.area += slice.area;
+        sum.moment += slice.moment;
     }
 
     /// Takes away what it shares with the slot before it up to `top`.
@@ -128,12 +131,12 @@ impl Slot {
         let slice = self.shared.slice(linear, top, shift);
         sum.area = sum.area.saturating_sub(slice.area);
         // As above.
-        sum.moment = sum.moment.wrapping_sub(slice.moment);
+        sum.moment -= slice.moment;
     }
 
     /// Area of the term cut off at `top` with all bits of the last product, below 2^60 for a `linear` below 2^30.
     pub(super) fn whole_area(&self, linear: u32, top: u32) -> u64 {
-        u64::from(linear).wrapping_mul(u64::from(self.own.width(top)))
+        u64::from(linear) * u64::from(self.own.width(top))
     }
 }
 
@@ -143,35 +146,35 @@ impl Piece {
     /// For corners within the range, where only c may be below b.
     const fn new([a, b, c, d]: [i32; 4], scale: u32) -> Self {
         // Sides and widths are at most 2^16, so the sums at most 2^17 and with 256 at most 2^25.
-        let (l, r) = (b.wrapping_sub(a), d.wrapping_sub(c));
+        let (l, r) = (b - a, d - c);
         Self {
-            area: scaled_up(d.wrapping_sub(a).cast_unsigned(), scale),
-            narrowing: scaled_up(l.wrapping_add(r).cast_unsigned() << 1, scale),
-            middle: a.wrapping_add(d).wrapping_mul(128),
-            skew: l.wrapping_sub(r).wrapping_mul(256),
+            area: scaled_up((d - a).cast_unsigned(), scale),
+            narrowing: scaled_up((l + r).cast_unsigned() << 1, scale),
+            middle: (a + d) * 128,
+            skew: (l - r) * 256,
         }
     }
 
     /// Mean width up to `top`, at least half of `area`.
     #[inline]
     const fn width(&self, top: u32) -> u32 {
-        self.area.wrapping_sub(high(top, self.narrowing))
+        self.area - high(top, self.narrowing)
     }
 
     #[inline]
     fn slice(&self, linear: u32, top: u32, shift: u32) -> Moments {
         // A quarter of top times narrowing: at most half of `area`, as `check` has it.
         let lost = high(top, self.narrowing);
-        let width = self.area.wrapping_sub(lost);
+        let width = self.area - lost;
         let area = cut_product(linear, width, shift);
         // |middle| <= 2^23, areas below 2^31.
-        let mut moment = i64::from(self.middle).wrapping_mul(i64::from(area.cast_signed()));
+        let mut moment = i64::from(self.middle) * i64::from(area.cast_signed());
         if self.skew != 0 {
             // 4/3 of `lost` is at most 2/3 of `area`.
-            let arm = width.wrapping_sub(high(lost, THIRD));
+            let arm = width - high(lost, THIRD);
             let lever = cut_product(linear, high(top, arm), shift);
             // |skew| <= 2^25, levers below 2^29.
-            moment = moment.wrapping_add(i64::from(self.skew).wrapping_mul(i64::from(lever.cast_signed())));
+            moment += i64::from(self.skew) * i64::from(lever.cast_signed());
         }
         Moments { area, moment }
     }
@@ -191,13 +194,13 @@ impl Moments {
     pub(super) fn centroid(self) -> Option<i32> {
         let lead = self.area.leading_zeros();
         // 2^15..=2^16, rounded: half a unit of 2^-15 at most; an area of 0 gives 0.
-        let area = (self.area.wrapping_shl(lead) >> 15).wrapping_add(1) >> 1;
+        let area = ((self.area.wrapping_shl(lead) >> 15) + 1) >> 1;
         // |moment| <= 2^23 area: at most 2^31 after the shift; anything larger is held to that.
         let moment = self.moment.unsigned_abs() >> 24_u32.saturating_sub(lead);
         let moment = if moment >> 32 == 0 { (moment as u32).min(1 << 31) } else { 1 << 31 };
         // Below 2^31 + 2^15 over at least 2^15.
-        let rounded = moment.wrapping_add(area >> 1).checked_div(area)?.min(1 << 15).cast_signed();
-        Some(if self.moment < 0 { rounded.wrapping_neg() } else { rounded })
+        let rounded = (moment + (area >> 1)).checked_div(area)?.min(1 << 15).cast_signed();
+        Some(if self.moment < 0 { -rounded } else { rounded })
     }
 }
 
@@ -205,7 +208,7 @@ impl Moments {
 #[expect(clippy::as_conversions, clippy::cast_possible_truncation, reason = "the callers' bound")]
 #[inline]
 fn cut_product(a: u32, b: u32, shift: u32) -> u32 {
-    u64::from(a).wrapping_mul(u64::from(b)).wrapping_shr(shift) as u32
+    (u64::from(a) * u64::from(b)).wrapping_shr(shift) as u32
 }
 
 /// `number 2^scale`, held to a word.

@@ -21,36 +21,22 @@ pub(super) fn moments(
     fire::<Small>(tables, sample, first, strengths);
     let firing = row.iter().zip(&*strengths).filter(|(slot, _)| slot.area() > 0);
     let top = firing.map(|(_, &strength)| Small(strength).exponent()).max().unwrap_or(0);
-    let Totals { area, .. } = Totals::of(row, strengths, top, 0);
-    // 30 bits of area, so that the sums fit as those of the fast way do.
+    let row = || row.iter().zip(&*strengths).map(|(slot, &strength)| (slot, Small(strength)));
+    // Below 2^30 times the sum of the areas of the row, which is at most 2^33.
+    let area: u64 = row().map(|(slot, own)| slot.whole_area(own.relative_to(top), own.q30())).sum();
+    // Leaves 30 bits of area, so that the sums fit as those of the fast way do.
     let shift = 34_u32.saturating_sub(area.leading_zeros());
-    Totals::of(row, strengths, top, shift).moments
-}
-
-struct Totals {
-    area: u64,
-    moments: Moments,
-}
-
-impl Totals {
-    fn of(row: &[Slot], strengths: &[u32], top: u32, shift: u32) -> Self {
-        let mut total = Self { area: 0, moments: Moments::default() };
-        let mut below = Small::ZERO;
-        for (slot, &strength) in row.iter().zip(strengths) {
-            let own = Small(strength);
-            if !own.is_zero() {
-                let (linear, height) = (own.relative_to(top), own.q30());
-                // 2^30 times the sum of all areas, 2^33, at most.
-                total.area = total.area.wrapping_add(slot.whole_area(linear, height));
-                slot.add(&mut total.moments, linear, height, shift);
-                let shared = own.min(below).min(Small::new(slot.crossing().into(), 30));
-                if !shared.is_zero() {
-                    let (linear, height) = (shared.relative_to(top), shared.q30());
-                    slot.subtract_shared(&mut total.moments, linear, height, shift);
-                }
+    let mut sum = Moments::default();
+    let mut below = Small::ZERO;
+    for (slot, own) in row() {
+        if own != Small::ZERO {
+            slot.add(&mut sum, own.relative_to(top), own.q30(), shift);
+            let shared = own.min(below).min(Small::new(slot.crossing().into(), 30));
+            if shared != Small::ZERO {
+                slot.subtract_shared(&mut sum, shared.relative_to(top), shared.q30(), shift);
             }
-            below = own;
         }
-        total
+        below = own;
     }
+    sum
 }

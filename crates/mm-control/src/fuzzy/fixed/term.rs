@@ -1,4 +1,8 @@
 //! A trapezoid over the steps of an input.
+#![expect(
+    clippy::arithmetic_side_effects,
+    reason = "plain operators state their bound; the dev profile checks them all"
+)]
 
 use super::grade::{Grade, ONE, Small, high};
 
@@ -32,14 +36,14 @@ impl Term {
         let c = held(c, b);
         let d = held(d, c);
         // All differences are in 0..=2^29.
-        let (rise, fall) = (b.wrapping_sub(a).cast_unsigned(), d.wrapping_sub(c).cast_unsigned());
+        let (rise, fall) = ((b - a).cast_unsigned(), (d - c).cast_unsigned());
         let (per_rise, rise_shift) = reciprocal(rise);
         let (per_fall, fall_shift) = reciprocal(fall);
         Self {
             start: a,
-            width: d.wrapping_sub(a).cast_unsigned(),
+            width: (d - a).cast_unsigned(),
             rise,
-            top: c.wrapping_sub(a).cast_unsigned(),
+            top: (c - a).cast_unsigned(),
             per_rise,
             per_fall,
             rise_shift,
@@ -64,34 +68,34 @@ impl Term {
     #[inline]
     pub(super) fn degree(&self, position: i32) -> u32 {
         // Both are below 2^29 in magnitude. Left of the term it wraps to beyond every width.
-        let past = position.wrapping_sub(self.start).cast_unsigned();
+        let past = (position - self.start).cast_unsigned();
         if past > self.width {
             0
         } else if past < self.rise {
-            high(past.wrapping_shl(u32::from(self.rise_shift)), self.per_rise)
+            high(past << (self.rise_shift & 31), self.per_rise)
         } else if past <= self.top {
             ONE
         } else {
             // `past` is at most `width`.
-            let left = self.width.wrapping_sub(past);
-            high(left.wrapping_shl(u32::from(self.fall_shift)), self.per_fall)
+            let left = self.width - past;
+            high(left << (self.fall_shift & 31), self.per_fall)
         }
     }
 
     /// The same, or its complement, in small notation.
     pub(super) fn small_degree(&self, position: i32, complement: bool) -> Small {
-        let past = position.wrapping_sub(self.start).cast_unsigned();
+        let past = (position - self.start).cast_unsigned();
         let (degree, other) = (Small::ONE, Small::ZERO);
         let (degree, other) = if past > self.width {
             (other, degree)
         } else if past < self.rise {
-            let rest = self.rise.wrapping_sub(past);
+            let rest = self.rise - past;
             let part = |steps| ratio(steps, self.per_rise, self.rise_shift);
             (part(past), part(rest))
         } else if past <= self.top {
             (degree, other)
         } else {
-            let (left, gone) = (self.width.wrapping_sub(past), past.wrapping_sub(self.top));
+            let (left, gone) = (self.width - past, past - self.top);
             let part = |steps| ratio(steps, self.per_fall, self.fall_shift);
             (part(left), part(gone))
         };
@@ -117,7 +121,7 @@ const fn held(corner: i32, least: i32) -> i32 {
 )]
 const fn reciprocal(steps: u32) -> (u32, u8) {
     let shift = steps.leading_zeros();
-    let scaled = (steps as u64).wrapping_shl(shift);
+    let scaled = (steps as u64) << shift;
     match (1_u64 << 62).checked_div(scaled) {
         Some(quotient) => (quotient as u32, shift as u8),
         None => (0, 0),
@@ -127,8 +131,8 @@ const fn reciprocal(steps: u32) -> (u32, u8) {
 /// A part of a side, in small notation.
 fn ratio(steps: u32, per: u32, shift: u8) -> Small {
     // Below 2^30 times 2^31; the shift is at most 31.
-    let product = u64::from(steps).wrapping_mul(u64::from(per));
-    Small::new(product, 62_u32.wrapping_sub(u32::from(shift)))
+    let product = u64::from(steps) * u64::from(per);
+    Small::new(product, 62 - u32::from(shift))
 }
 
 #[cfg(test)]
