@@ -75,7 +75,7 @@ pub(super) fn block<'a>(parser: &mut Parser<'a>, report: &mut Report) -> Option<
     while !parser.takes(END) {
         let from = parser.position();
         if parser.peek().is_none() {
-            report.add_expected(parser.place(), "the end of the text", format!("`{END}`"));
+            report.add_expected(parser.place(), "found the end of the text", format!("`{END}`"));
             break;
         }
         if one_block(parser, &mut block, report).is_none() {

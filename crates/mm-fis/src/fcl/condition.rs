@@ -173,7 +173,7 @@ fn is<'a>(
     let terms: Vec<_> = variable.terms.iter().map(|term| term.name).collect();
     let Some(term) = find(&terms, word) else {
         // Where its terms could not be read, nobody knows which there are.
-        if variable.broken {
+        if variable.broken || !variable.described {
             return None;
         }
         let hedge = HEDGES.iter().any(|hedge| hedge.eq_ignore_ascii_case(word.text));

@@ -28,7 +28,10 @@ impl<'a> Parser<'a> {
 
     /// The next token as a message shows it.
     pub(super) fn found(&self) -> String {
-        self.peek().map_or_else(|| "the end of the text".to_owned(), |token| token.piece.shown())
+        self.peek().map_or_else(
+            || "found the end of the text".to_owned(),
+            |token| format!("found {}", token.piece.shown()),
+        )
     }
 
     pub(super) fn advance(&mut self) -> Option<Token<'a>> {

@@ -88,7 +88,7 @@ impl<'a> Keys<'a> {
         }
         let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
         if !digits {
-            report.add_expected(place, place.shown(), "a whole number");
+            report.add_found(place, "a whole number");
         } else if whole(&text) != Some(there) {
             let be = if there == 1 { "is" } else { "are" };
             let there = count(there, what);

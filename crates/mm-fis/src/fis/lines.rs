@@ -110,7 +110,7 @@ fn topic<'a>(line: Piece<'a>, report: &mut Report) -> Option<(Piece<'a>, Topic)>
 /// Splits a line at its `=`.
 pub(super) fn entry<'a>(line: Piece<'a>, report: &mut Report) -> Option<Entry<'a>> {
     let Some(at) = line.text.find('=').filter(|&at| without_comment(line).text.len() > at) else {
-        report.add_expected(line, without_comment(line).shown(), "`key=value`");
+        report.add_expected(line, format!("found {}", without_comment(line).shown()), "`key=value`");
         return None;
     };
     let (key, rest) = line.split_at(at);

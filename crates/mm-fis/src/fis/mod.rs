@@ -55,6 +55,8 @@ pub fn read_fis(text: &str) -> Result<Document, ReadError> {
 
 fn system(text: &str, report: &mut Report) -> Option<System> {
     let sections = sections(text, report);
+    // Where a section is missing, counts and rules would only repeat it.
+    let whole_text = report.is_empty();
     let Some(header) = sections.iter().find(|section| section.topic == Topic::System) else {
         if report.is_empty() {
             report.add_expected(Piece::new("", 0), "no section `[System]`", "a `.fis` file of version 2.0");
@@ -68,8 +70,10 @@ fn system(text: &str, report: &mut Report) -> Option<System> {
         numbered(&sections, |topic| if let Topic::Input(n) = topic { Some(n) } else { None }, report);
     let outputs =
         numbered(&sections, |topic| if let Topic::Output(n) = topic { Some(n) } else { None }, report);
-    keys.counts("NumInputs", inputs.len(), "input section", report);
-    keys.counts("NumOutputs", outputs.len(), "output section", report);
+    if whole_text {
+        keys.counts("NumInputs", inputs.len(), "input section", report);
+        keys.counts("NumOutputs", outputs.len(), "output section", report);
+    }
     for (there, name) in [(inputs.len(), "[Input1]"), (outputs.len(), "[Output1]")] {
         if there == 0 {
             report.add_expected(header.header, format!("no section `{name}`"), "at least one");
@@ -83,7 +87,8 @@ fn system(text: &str, report: &mut Report) -> Option<System> {
     // Without a type nobody knows what the terms of an output may be.
     let outputs = if kind.is_some() { read(&outputs, role, "output", report) } else { Vec::new() };
     let mut variables = Variables { kind, inputs, outputs };
-    let rules = if kind.is_some() { rules(&sections, header, &keys, &variables, report) } else { None };
+    let rules =
+        if kind.is_some() && whole_text { rules(&sections, header, &keys, &variables, report) } else { None };
     let whole =
         |reads: &mut Vec<Read<'_>>| reads.drain(..).map(|read| read.variable).collect::<Option<Vec<_>>>();
     let (inputs, outputs) = (whole(&mut variables.inputs)?, whole(&mut variables.outputs)?);

@@ -103,7 +103,7 @@ fn connective(scanner: &mut Scanner<'_>, report: &mut Report) -> Option<Connecti
         "1" => Some(Connective::And),
         "2" => Some(Connective::Or),
         _ => {
-            report.add_expected(word, word.shown(), "`1` for AND or `2` for OR");
+            report.add_found(word, "`1` for AND or `2` for OR");
             None
         }
     }

@@ -56,7 +56,7 @@ impl<'a> Scanner<'a> {
             return Some(());
         }
         let rest = self.rest();
-        report.add_expected(rest, rest.shown(), "the end of the line");
+        report.add_found(rest, "the end of the line");
         None
     }
 
@@ -108,7 +108,7 @@ impl<'a> Scanner<'a> {
         let mut numbers = Vec::new();
         while !self.takes(']') {
             if self.is_done() {
-                report.add_expected(self.rest().end(), "the end of the line", "`]`");
+                report.add_expected(self.rest().end(), "found the end of the line", "`]`");
                 return None;
             }
             let comma = !numbers.is_empty() && self.takes(',');
@@ -131,9 +131,9 @@ impl<'a> Scanner<'a> {
         let rest = self.rest();
         match rest.text.chars().next() {
             Some(c) if !starts_comment(rest.text) => {
-                Piece::new(rest.split_at(c.len_utf8()).0.text, 0).shown()
+                format!("found {}", rest.split_at(c.len_utf8()).0.shown())
             }
-            _ => "the end of the line".to_owned(),
+            _ => "found the end of the line".to_owned(),
         }
     }
 }
@@ -195,11 +195,11 @@ pub(crate) fn number<'a>(word: Piece<'a>, report: &mut Report) -> Option<Number<
     match word.text.parse::<f64>() {
         Ok(value) if value.is_finite() && digits => Some(Number { value, place: word }),
         Ok(_) if digits || unfinite => {
-            report.add_expected(word, word.shown(), "a finite number");
+            report.add_found(word, "a finite number");
             None
         }
         _ => {
-            report.add_expected(word, word.shown(), "a number");
+            report.add_found(word, "a number");
             None
         }
     }

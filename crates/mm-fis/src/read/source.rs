@@ -113,6 +113,11 @@ impl Report {
         self.push(place, message.into(), Some(expected.into()), None);
     }
 
+    /// Adds what was found where something else was expected.
+    pub(crate) fn add_found(&mut self, place: Piece<'_>, expected: impl Into<String>) {
+        self.push(place, format!("found {}", place.shown()), Some(expected.into()), None);
+    }
+
     /// Adds an unknown name, with those that are known.
     pub(crate) fn add_unknown(&mut self, place: Piece<'_>, what: &str, known: &[&str]) {
         let expected = (!known.is_empty()).then(|| one_of(known));
