@@ -5,6 +5,7 @@
 mod ci;
 mod claim;
 mod count;
+mod fuzz;
 mod fuzzy_peers;
 mod grid;
 mod mmsim;
@@ -29,6 +30,7 @@ cargo xtask <job>
   grid                maps the gains of bsmc on square-compare into docs/grid.csv [--mmsim FILE]
   claim               judges the thesis's claim on square-compare into docs/claim.csv [--mmsim FILE]
   bench-instructions  counts the instructions of each operation with callgrind [--json] [--target-cpu CPU]
+  fuzz                feeds any text to the readers of .fis and FCL, with nightly and cargo-fuzz [--seconds N: each target]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -87,6 +89,13 @@ fn run() -> Result<ExitCode> {
             let cpu = arguments.value("--target-cpu")?;
             arguments.finish()?;
             count::run(json, cpu.as_deref())?
+        }
+        "fuzz" => {
+            let seconds = arguments.value("--seconds")?;
+            arguments.finish()?;
+            let seconds = seconds.map_or(Ok(60), |seconds| seconds.parse());
+            fuzz::fuzz(seconds.context("--seconds takes a whole number")?)?;
+            ExitCode::SUCCESS
         }
         "real-time" => {
             let runs = arguments.value("--runs")?;

@@ -4,7 +4,8 @@ use std::collections::HashMap;
 
 use mm_control::fuzzy::{Aggregation, And, Implication, Or};
 
-use super::block::{Block, Described, Operators};
+use super::block::{Block, Operators};
+use super::describe::Described;
 use super::expand::Algebra;
 use super::names::{Accumulation, Method};
 use super::range;

@@ -1,6 +1,6 @@
 //! Rules as they are written.
 
-use super::block::Described;
+use super::describe::Described;
 use super::function::MAX_DEPTH;
 use super::names::find;
 use super::parser::Parser;

@@ -3,6 +3,7 @@
 mod block;
 mod build;
 mod condition;
+mod describe;
 mod expand;
 mod function;
 mod names;

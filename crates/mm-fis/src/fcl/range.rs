@@ -2,7 +2,7 @@
 
 use mm_control::fuzzy::MembershipFunction as Mf;
 
-use super::block::Described;
+use super::describe::Described;
 use crate::read::Report;
 use crate::{Kind, Shape};
 
