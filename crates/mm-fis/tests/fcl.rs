@@ -92,6 +92,9 @@ fn singletons_are_weighted_by_their_rules() {
     assert!((evaluate(&system, &[2.5, 5.0]) - expected).abs() < 1e-12, "weighted average");
     let (low, high) = system.outputs[0].range;
     assert!((0.5 * low + 0.5 * high - 3.0).abs() < 1e-12, "the default is the middle of the range");
+    let notes = read(&text(&format!("{terms} RANGE := (0 .. 5);"), "COGS", rules)).notes;
+    assert_eq!(notes.len(), 1, "{notes:?}");
+    assert!(notes[0].message().starts_with("a singleton outside its RANGE"), "{}", notes[0]);
 }
 
 #[test]

@@ -73,7 +73,7 @@ pub(super) fn system(block: &Block<'_>, report: &mut Report, notes: &mut Report)
     let name = block.name.clone();
     let system =
         System { name, kind, and, or, implication, aggregation, defuzzification, inputs, outputs, rules };
-    defaults(block, &system, notes);
+    self::outputs(block, &system, notes);
     Some(system)
 }
 
@@ -262,9 +262,20 @@ fn variables(
     read.into_iter().collect()
 }
 
-/// Notes a `DEFAULT` that the engine does not give: where no rule fires, its output is the middle of the range.
-fn defaults(block: &Block<'_>, system: &System, notes: &mut Report) {
+/// Notes what an output does otherwise: a `DEFAULT` that the engine does not give, since where no rule fires its output is
+/// the middle of the range, and a `RANGE` that singletons leave.
+fn outputs(block: &Block<'_>, system: &System, notes: &mut Report) {
     for (at, (output, variable)) in block.outputs.iter().zip(&system.outputs).enumerate() {
+        if let Some(((low, high), _)) = output.range {
+            let outside =
+                |shape: &Shape| matches!(shape, Shape::Constant(value) if !(low..=high).contains(value));
+            if let Some(defined) = output.terms.iter().find(|defined| outside(&defined.term.shape)) {
+                notes.add(
+                    defined.place,
+                    "a singleton outside its RANGE, to which a Sugeno output is not limited",
+                );
+            }
+        }
         let Some((default, place)) = output.default else { continue };
         let middle = match system.defuzzification {
             Defuzzification::WeightedSum => 0.0,
