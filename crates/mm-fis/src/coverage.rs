@@ -6,8 +6,8 @@ use mm_control::fuzzy::{Connective, MembershipFunction as Mf};
 
 use crate::{Rule, Shape, System, Variable};
 
-/// Rules times points that are tried.
-const MAX_TRIED: usize = 4_000_000;
+/// Degrees that are looked at: points times rules times inputs.
+const MAX_WORK: usize = 5_000_000;
 
 /// A place where no rule concludes anything of an output, as in `, as at x = 3`; `None` where one always does.
 ///
@@ -22,8 +22,9 @@ pub(crate) fn unfired(system: &System, output: usize) -> Option<String> {
         .filter(|rule| rule.weight > 0.0 && rule.outputs.get(output).is_some_and(|term| *term != 0))
         .collect();
     let points = grids.iter().try_fold(1_usize, |points, grid| points.checked_mul(grid.len()));
-    let work = points.and_then(|points| points.checked_mul(rules.len().max(1)));
-    if work.is_none_or(|work| work > MAX_TRIED) {
+    let each = rules.len().max(1).saturating_mul(system.inputs.len());
+    let work = points.and_then(|points| points.checked_mul(each));
+    if work.is_none_or(|work| work > MAX_WORK) {
         return Some(String::new());
     }
     let mut at = vec![0; grids.len()];

@@ -7,6 +7,9 @@ use super::{Problem, ReadError, nearest};
 /// Problems that are kept; a text with more of them is not meant as a fuzzy system.
 const MAX_PROBLEMS: usize = 100;
 
+/// Known names that a message lists.
+const MAX_LISTED: usize = 25;
+
 /// Characters of a found text that a message repeats.
 const MAX_SHOWN: usize = 40;
 
@@ -120,6 +123,11 @@ impl Report {
 
     /// Adds an unknown name, with those that are known.
     pub(crate) fn add_unknown(&mut self, place: Piece<'_>, what: &str, known: &[&str]) {
+        if self.problems.len() >= MAX_PROBLEMS {
+            // Spares the search; a text may have as many of them as names.
+            self.left_off += 1;
+            return;
+        }
         let expected = (!known.is_empty()).then(|| one_of(known));
         let near = nearest(place.text, known.iter().copied()).map(str::to_owned);
         self.push(place, format!("{what} {}", place.shown()), expected, near);
@@ -181,9 +189,12 @@ fn boundary(text: &str, byte: usize) -> usize {
     (0..=byte).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
 }
 
-/// `a`, `b` or `c`.
+/// `a`, `b` or `c`; of many words, the first ones.
 pub(crate) fn one_of(words: &[&str]) -> String {
-    let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    let mut quoted: Vec<String> = words.iter().take(MAX_LISTED).map(|word| shown(word)).collect();
+    if let Some(more) = words.len().checked_sub(MAX_LISTED).filter(|more| *more > 0) {
+        quoted.push(format!("{more} more"));
+    }
     match quoted.split_last() {
         None => "nothing".to_owned(),
         Some((only, [])) => only.clone(),
