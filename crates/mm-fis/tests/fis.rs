@@ -94,3 +94,21 @@ fn every_problem_is_found_at_its_place() {
         "{first}"
     );
 }
+
+#[test]
+fn the_format_is_told_by_ending_or_by_the_text() {
+    let fcl = include_str!("corpus/good/tipper.fcl");
+    for (name, text, system) in [
+        ("a.fis", TIDY, "tip"),
+        ("dir.fcl/a.FIS", TIDY, "tip"),
+        ("a", TIDY, "tip"),
+        ("-", WILD, "tip"),
+        ("a.FCL", fcl, "tipper"),
+        ("a.txt", fcl, "tipper"),
+    ] {
+        let read = mm_fis::read(name, text).map(|document| document.system.name);
+        assert_eq!(read.as_deref(), Ok(system), "{name}");
+    }
+    let wrong = mm_fis::read("a.fis", fcl).unwrap_err();
+    assert_eq!(wrong.problems()[0].expected(), Some("`[System]`"), "{wrong}");
+}

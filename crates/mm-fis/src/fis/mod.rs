@@ -42,10 +42,35 @@ const SYSTEM_KEYS: [&str; 11] = [
 /// fuzzylite puts its own version.
 const FUZZYLITE: RangeInclusive<f64> = 4.0..=9.0;
 
-/// Reads a `.fis` file of version 2.0, as MATLAB, GNU Octave and others write it.
+/// Reads a `.fis` file of version 2.0, as MATLAB, GNU Octave, fuzzylite and people with editors write it.
+///
+/// Sections and keys in any order and case; values in straight, curly or no quotes, a doubled quote within quotes being one; numbers
+/// apart by blanks or commas; lines ended by LF, CR LF or CR; comments from `%`, `#` or `//` on; a byte order mark. Missing
+/// methods are as MATLAB sets them: min, max, min, max, centroid, and prod, probor, prod, sum, wtaver of a Sugeno system. A missing
+/// count is counted, one that is there is checked.
+///
+/// Names that stand for others: `algebraic_product` (`prod`), `algebraic_sum` (`probor`), `normalized_sum` (`sum`, since scaling
+/// an output set moves no defuzzified value), `rampmf` (`linsmf` or `linzmf`), `rectmf` (`trapmf`).
+///
+/// Refused with its place: unknown or repeated keys and sections, gaps in numbers, wrong counts, numbers that are none or not
+/// finite, breakpoints out of order, widths of 0, variables without terms, no rules, indices of terms that do not exist, weights
+/// outside [0, 1], hedges, type-2 systems, operators and shapes that the engine does not have. What is read, an engine takes: the
+/// exact centroid of curved output sets is the only thing it may refuse.
+///
+/// Cost: linear in the text, whatever numbers it holds.
 ///
 /// # Errors
-/// [`ReadError`] with every problem of the text, each with its place.
+/// [`ReadError`] with every problem of the text.
+///
+/// # Source
+/// MathWorks, Fuzzy Logic Toolbox, `writeFIS`; L. Markowsky, B. Segee, The Octave Fuzzy Logic Toolkit, 2011.
+///
+/// # Examples
+/// ```
+/// let error = mm_fis::read_fis("[System]\nType='mamdami'").unwrap_err();
+/// let problem = &error.problems()[error.problems().len() - 1];
+/// assert_eq!((problem.line(), problem.column(), problem.nearest()), (2, 7, Some("mamdani")));
+/// ```
 pub fn read_fis(text: &str) -> Result<Document, ReadError> {
     let mut report = Report::new();
     let system = system(text, &mut report);
