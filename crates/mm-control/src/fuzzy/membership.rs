@@ -81,16 +81,16 @@ impl<T: Real> MembershipFunction<T> {
         match *self {
             Self::Triangle([a, b, c]) => trapezoid(x, a, b, b, c),
             Self::Trapezoid([a, b, c, d]) => trapezoid(x, a, b, c, d),
-            Self::LinearS([a, b]) => rising(x, a, b),
-            Self::LinearZ([a, b]) => rising(-x, -b, -a),
-            _ => self.curved_degree(x),
+            _ => self.rarer_degree(x),
         }
     }
 
-    /// The shapes that are not piecewise linear; kept out of line, they are the rarer ones on a small machine.
+    /// The other shapes; kept out of line, they are the rarer ones on a small machine.
     #[inline(never)]
-    fn curved_degree(&self, x: T) -> T {
+    fn rarer_degree(&self, x: T) -> T {
         let degree = match *self {
+            Self::LinearS([a, b]) => rising(x, a, b),
+            Self::LinearZ([a, b]) => rising(-x, -b, -a),
             Self::Gaussian([s, c]) => bell_curve(x, s, c),
             Self::Gaussian2([s1, c1, s2, c2]) => {
                 let left = if x < c1 { bell_curve(x, s1, c1) } else { T::ONE };
@@ -104,7 +104,7 @@ impl<T: Real> MembershipFunction<T> {
             Self::S([a, b]) => parabolas(x, a, b),
             Self::Z([a, b]) => parabolas(-x, -b, -a),
             Self::Pi([a, b, c, d]) => parabolas(x, a, b) * parabolas(-x, -d, -c),
-            Self::Triangle(_) | Self::Trapezoid(_) | Self::LinearS(_) | Self::LinearZ(_) => T::ZERO,
+            Self::Triangle(_) | Self::Trapezoid(_) => T::ZERO,
         };
         if degree >= T::ZERO && x.abs() >= T::ZERO { degree } else { T::ZERO }
     }
