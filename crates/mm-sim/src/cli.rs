@@ -1,6 +1,7 @@
 //! The command line: `mmsim`.
 
 mod compare;
+mod fis;
 mod interrupt;
 mod progress;
 mod recorder;
@@ -41,7 +42,8 @@ pub enum Exit {
     mmsim --scenario square --controller bsmc --set plant.mass_scale=1.25 --json\n  \
     mmsim compare --scenario square-compare --controllers bsmc,bsmc-sat,bfsmc-thesis,bfsmc\n  \
     mmsim sweep --scenario square-compare --samples 1000\n  \
-    mmsim tune --scenario square-compare --controller bfsmc -o gains.toml\n\n\
+    mmsim tune --scenario square-compare --controller bfsmc -o gains.toml\n  \
+    mmsim fis eval thesis -0.5 0.25\n\n\
     Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed")]
 struct Cli {
     #[command(subcommand)]
@@ -65,6 +67,9 @@ enum Command {
     /// List, show and check scenario files, or print their JSON schema.
     #[command(subcommand)]
     Scenario(ScenarioCommand),
+    /// Evaluate, check, draw and compile fuzzy systems from .fis and .fcl files.
+    #[command(subcommand)]
+    Fis(fis::FisCommand),
 }
 
 /// What `run` and `compare` share.
@@ -186,6 +191,7 @@ where
     I: IntoIterator<Item = A>,
     A: Into<OsString> + Clone,
 {
+    let args = fis::shield_numbers(args.into_iter().map(Into::into).collect());
     let outcome = Cli::try_parse_from(args).and_then(|cli| match cli.command {
         None => run::run(&cli.run),
         Some(Command::Run(args)) => run::run(&args),
@@ -194,6 +200,7 @@ where
         Some(Command::Sweep(args)) => sweep::sweep(&args),
         Some(Command::Tune(args)) => tune::tune(&args),
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
+        Some(Command::Fis(command)) => Ok(fis::fis(&command)),
     });
     outcome.unwrap_or_else(|error| {
         let _ = error.print();

@@ -12,6 +12,7 @@
 
 mod axes;
 mod canvas;
+pub mod fuzzy;
 mod graph;
 mod kinds;
 mod page;

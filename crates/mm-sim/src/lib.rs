@@ -23,6 +23,7 @@ pub mod reproduce;
 pub mod scenario;
 mod shell;
 pub mod simulation;
+mod snippet;
 mod stopper;
 pub mod summary;
 pub mod sweep;

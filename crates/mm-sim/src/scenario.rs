@@ -14,7 +14,7 @@ mod diagnostic;
 mod docs;
 mod fuzzy;
 mod gains;
-mod nearest;
+pub(crate) mod nearest;
 mod rules;
 mod schema;
 mod tree;

@@ -22,6 +22,8 @@ use mm_control::fuzzy::FuzzyError;
 
 use crate::System;
 
+pub use outputs::along;
+
 /// How serious a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
@@ -236,6 +238,14 @@ pub struct Reach {
     pub range: (f64, f64),
     /// Smallest and largest value that was seen.
     pub reached: (f64, f64),
+}
+
+impl fmt::Display for Reach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { output, range, reached } = self;
+        let [lo, hi, least, most] = [range.0, range.1, reached.0, reached.1].map(words::Short);
+        write!(f, "output `{output}` takes on [{least}, {most}], its range is [{lo}, {hi}]")
+    }
 }
 
 /// What [`check`] found.

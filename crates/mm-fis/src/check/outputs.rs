@@ -37,11 +37,24 @@ struct Grain {
     parts: u32,
     /// Lines along each input.
     lines: usize,
+    is_sampled: bool,
 }
 
 /// Evaluates a system all over its inputs.
 pub(super) fn probe(system: &System) -> Result<Probed, FuzzyError> {
-    let is_single = system.inputs.len() == 1;
+    with_probe(system, |probe, known| analyse(system, probe, grain(system, known)))
+}
+
+/// How an output is known: exactly, or by samples, and what is too small to be seen in it, in its range.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    samples: Option<u32>,
+    jump: f64,
+    turn: f64,
+}
+
+/// Hands an engine to `work`, the most exact that the system has.
+fn with_probe<R>(system: &System, work: impl Fn(Probe<'_>, Known) -> R) -> Result<R, FuzzyError> {
     let is_sampled_anyway = matches!(
         system.defuzzification,
         Defuzzification::Bisector
@@ -49,35 +62,51 @@ pub(super) fn probe(system: &System) -> Result<Probed, FuzzyError> {
             | Defuzzification::SmallestOfMaximum
             | Defuzzification::LargestOfMaximum
     );
-    let samples: u32 = if is_single { 1001 } else { 201 };
-    let sampled = Accuracy::Sampled(Sampling::Ends(samples));
-    let step = 1.0 / f64::from(samples);
-    if is_sampled_anyway {
-        // The output is one of the samples, or the mean of some.
-        let grain = grain(system, Some(samples), (2.5 * step, 2.5 * step));
-        let analysed =
-            system.with_engine(sampled, |engine| analyse(system, Probe::new(engine, system), grain))?;
-        return Ok(Probed { is_sampled: true, ..analysed });
-    }
-    let exact = grain(system, None, (1e-5, 1e-6));
-    let analysed =
-        system.with_engine(Accuracy::Exact, |engine| analyse(system, Probe::new(engine, system), exact));
-    match analysed {
-        Err(FuzzyError::Curved(_)) => {
-            let tolerance = 0.1 * step;
-            let grain = grain(system, Some(samples), (tolerance, tolerance));
-            let analysed =
-                system.with_engine(sampled, |engine| analyse(system, Probe::new(engine, system), grain))?;
-            Ok(Probed { is_sampled: true, ..analysed })
+    let exact = Known { samples: None, jump: 1e-5, turn: 1e-6 };
+    if !is_sampled_anyway {
+        match system.with_engine(Accuracy::Exact, |engine| work(Probe::new(engine, system), exact)) {
+            Err(FuzzyError::Curved(_)) => {}
+            other => return other,
         }
-        other => other,
     }
+    let samples: u32 = if system.inputs.len() == 1 { 1001 } else { 201 };
+    // Such an output is one of the samples, or the mean of some; a centroid is far better than they are dense.
+    let steps = if is_sampled_anyway { 2.5 } else { 0.1 };
+    let tolerance = steps / f64::from(samples);
+    let known = Known { samples: Some(samples), jump: tolerance, turn: tolerance };
+    let accuracy = Accuracy::Sampled(Sampling::Ends(samples));
+    system.with_engine(accuracy, |engine| work(Probe::new(engine, system), known))
 }
 
-fn grain(system: &System, samples: Option<u32>, (jump, turn): (f64, f64)) -> Grain {
+/// An output along one input, the others held at the values of `base`: points in ascending order, and the jumps.
+///
+/// The points are dense, and to both sides of every breakpoint; an exact centroid is taken where there is one.
+///
+/// # Errors
+/// As [`System::with_engine`].
+pub fn along(
+    system: &System,
+    output: usize,
+    axis: usize,
+    base: &[f64],
+) -> Result<(Vec<(f64, f64)>, Vec<Jump>), FuzzyError> {
+    let empty = (Vec::new(), Vec::new());
+    let (Some(input), Some(variable)) = (system.inputs.get(axis), system.outputs.get(output)) else {
+        return Ok(empty);
+    };
+    let width = variable.range.1 - variable.range.0;
+    with_probe(system, |mut probe, known| {
+        let places = places(input, if known.samples.is_some() { 500 } else { 2000 });
+        let scan = Scan::new(&mut probe, base, (axis, input.range), &places);
+        let points = scan.curve(output).into_iter().map(|(place, value)| (place.x(), value)).collect();
+        (points, scan.jumps(&mut probe, output, known.jump * width))
+    })
+}
+
+fn grain(system: &System, Known { samples, jump, turn }: Known) -> Grain {
     if system.inputs.len() == 1 {
         let parts = if samples.is_some() { 500 } else { 2000 };
-        return Grain { jump, turn, parts, lines: 1 };
+        return Grain { jump, turn, parts, lines: 1, is_sampled: samples.is_some() };
     }
     let parts: u32 = if samples.is_some() { 48 } else { 96 };
     let count = |variables: &[Variable]| variables.iter().map(|variable| variable.terms.len()).sum::<usize>();
@@ -89,7 +118,7 @@ fn grain(system: &System, samples: Option<u32>, (jump, turn): (f64, f64)) -> Gra
     let line =
         one.saturating_mul(parts as usize + 12 * system.inputs.first().map_or(0, |input| input.terms.len()));
     let lines = (WORK / line.saturating_mul(inputs).max(1)).clamp(1, MOST_LINES);
-    Grain { jump, turn, parts, lines }
+    Grain { jump, turn, parts, lines, is_sampled: samples.is_some() }
 }
 
 fn analyse(system: &System, mut probe: Probe<'_>, grain: Grain) -> Probed {
@@ -131,7 +160,7 @@ fn analyse(system: &System, mut probe: Probe<'_>, grain: Grain) -> Probed {
         }
     }
     findings.extend(outputs.iter().flat_map(reach));
-    Probed { findings, outputs, is_sampled: false }
+    Probed { findings, outputs, is_sampled: grain.is_sampled }
 }
 
 /// What one output does along one line.
@@ -276,19 +305,11 @@ fn course(runs: &[Run], (lo, hi): (f64, f64)) -> String {
 fn reach(reach: &Reach) -> Option<Finding> {
     let ((lo, hi), (least, most)) = (reach.range, reach.reached);
     let width = hi - lo;
-    let words = format!(
-        "its range is [{}, {}], it takes on [{}, {}]",
-        Short(lo),
-        Short(hi),
-        Short(least),
-        Short(most)
-    );
-    let finding = |kind: Kind, what: &str| {
-        Finding::new(kind, format!("output `{}` {what}: {words}", reach.output)).about(&[&reach.output])
-    };
+    let finding =
+        |kind: Kind, what: &str| Finding::new(kind, format!("{what}: {reach}")).about(&[&reach.output]);
     if least < lo - SAME_PLACE * width || most > hi + SAME_PLACE * width {
-        return Some(finding(Kind::RangeExceeded, "leaves its range"));
+        return Some(finding(Kind::RangeExceeded, "a range is exceeded"));
     }
     (least > lo + MISSING * width || most < hi - MISSING * width)
-        .then(|| finding(Kind::RangeNotReached, "stays far from an end of its range"))
+        .then(|| finding(Kind::RangeNotReached, "an end of a range is never near"))
 }

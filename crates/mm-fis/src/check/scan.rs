@@ -25,6 +25,13 @@ pub(super) struct Place {
     is_breakpoint: bool,
 }
 
+impl Place {
+    /// The value of the input.
+    pub(super) const fn x(self) -> f64 {
+        self.x
+    }
+}
+
 /// Where an input is looked at: everywhere alike, at every breakpoint, and to both sides of it.
 pub(super) fn places(input: &Variable, parts: u32) -> Vec<Place> {
     let (lo, hi) = input.range;

@@ -98,6 +98,21 @@ impl Canvas<'_> {
         Ok(())
     }
 
+    /// The outline of a disc, white within.
+    pub(super) fn ring(&self, center: Pixel, radius: f64, color: RGBColor) -> Result<(), FigureError> {
+        self.disc(center, radius, WHITE)?;
+        let style =
+            ShapeStyle { color: color.to_rgba(), filled: false, stroke_width: fine(1.4).unsigned_abs() };
+        self.area.draw(&Circle::new(at(center), fine(radius), style))?;
+        Ok(())
+    }
+
+    /// A filled rectangle.
+    pub(super) fn block(&self, from: Pixel, to: Pixel, color: RGBColor) -> Result<(), FigureError> {
+        self.area.draw(&Rectangle::new([at(from), at(to)], color.filled()))?;
+        Ok(())
+    }
+
     /// The outline of a rectangle.
     pub(super) fn frame(&self, from: Pixel, to: Pixel) -> Result<(), FigureError> {
         let style =

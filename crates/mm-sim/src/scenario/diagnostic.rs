@@ -2,12 +2,8 @@
 
 use std::fmt;
 
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-
 use super::tree::Place;
-
-/// Longest expectation that stands beside the caret; a longer one gets its own line.
-const MAX_LABEL: usize = 48;
+use crate::snippet::{Message, boundary};
 
 /// Problems that are shown; a file with more of them is not meant as a scenario.
 const MAX_SHOWN: usize = 30;
@@ -123,47 +119,20 @@ impl ScenarioError {
         Some((&source.name, line, column))
     }
 
-    fn render(&self, problem: &Problem) -> String {
-        let mut group = Group::with_title(Level::ERROR.primary_title(problem.title()));
-        let mut label = problem.expected.as_deref().map(|expected| format!("expected {expected}"));
-        if let Some((place, source)) =
-            problem.place.as_ref().and_then(|place| Some((place, self.sources.get(place.source)?)))
-        {
-            let short = label.as_deref().is_some_and(|label| label.chars().count() <= MAX_LABEL);
-            let beside = if short { label.take() } else { None };
-            group = group.element(
-                Snippet::source(source.text.as_str())
-                    .path(source.name.as_str())
-                    .annotation(AnnotationKind::Primary.span(first_line(&source.text, place)).label(beside)),
-            );
-            if source.name == super::SET_NAME
-                && let Some(file) = self.sources.first()
-            {
-                group = group.element(Level::NOTE.message(format!("given over {}", file.name)));
-            }
+    fn message<'a>(&'a self, problem: &'a Problem) -> Message<'a> {
+        let place = problem.place.as_ref().and_then(|place| Some((place, self.sources.get(place.source)?)));
+        let is_set = place.is_some_and(|(_, source)| source.name == super::SET_NAME);
+        let file = self.sources.first().filter(|_| is_set);
+        Message {
+            is_warning: false,
+            title: problem.title(),
+            expected: problem.expected.as_deref(),
+            nearest: problem.nearest.as_deref(),
+            place: place
+                .map(|(place, source)| (source.name.as_str(), source.text.as_str(), place.span.clone())),
+            remark: file.map(|file| format!("given over {}", file.name)),
         }
-        if let Some(label) = label {
-            group = group.element(Level::NOTE.message(label));
-        }
-        if let Some(nearest) = &problem.nearest {
-            group = group.element(Level::HELP.message(format!("the nearest known name is `{nearest}`")));
-        }
-        Renderer::plain().render(&[group])
     }
-}
-
-/// The part of a place on its first line, so that a caret never runs over a whole table, in whole characters.
-fn first_line(text: &str, place: &Place) -> std::ops::Range<usize> {
-    let start = boundary(text, place.span.start);
-    let stop = boundary(text, place.span.end).max(start);
-    let length = text.get(start..stop).and_then(|part| part.find(['\r', '\n'])).unwrap_or(stop - start);
-    start..start + length
-}
-
-/// The last start of a character, or the end of the text, at or before a byte.
-fn boundary(text: &str, byte: usize) -> usize {
-    let byte = byte.min(text.len());
-    (0..=byte).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
 }
 
 impl fmt::Display for ScenarioError {
@@ -172,7 +141,7 @@ impl fmt::Display for ScenarioError {
             if index > 0 {
                 f.write_str("\n\n")?;
             }
-            f.write_str(&self.render(problem))?;
+            write!(f, "{}", self.message(problem))?;
         }
         match self.problems.len().saturating_sub(MAX_SHOWN) {
             0 => Ok(()),

@@ -5,7 +5,7 @@
 ///
 /// Case is ignored, and a candidate that continues the word, as `duration_s` does `duration`, counts as
 /// one edit away: a forgotten unit is the most common slip.
-pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_lowercase();
     candidates.into_iter().min_by_key(|candidate| {
         let lower = candidate.to_lowercase();
@@ -14,7 +14,7 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
 }
 
 /// Whether a word is so near to another that it may well be a misspelling of it.
-pub(super) fn is_near(word: &str, other: &str) -> bool {
+pub(crate) fn is_near(word: &str, other: &str) -> bool {
     distance(&word.to_lowercase(), &other.to_lowercase()) <= 1 + other.chars().count() / 4
 }
 
