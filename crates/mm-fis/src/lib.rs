@@ -7,6 +7,7 @@
 //! ```
 
 mod bundled;
+pub mod check;
 pub mod compile;
 mod coverage;
 mod engine;

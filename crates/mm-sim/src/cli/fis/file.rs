@@ -15,12 +15,6 @@ const MAX_SHOWN: usize = 30;
 /// The name that stands for standard input.
 pub(super) const STDIN: &str = "-";
 
-/// The systems that the binary carries.
-static BUNDLED: [(&str, &str); 2] = [
-    ("thesis", include_str!("../../../../../scenarios/fis/thesis.fis")),
-    ("smooth", include_str!("../../../../../scenarios/fis/smooth.fis")),
-];
-
 /// A system and the name of its text.
 pub(super) struct Loaded {
     /// The file as given.
@@ -84,15 +78,15 @@ fn text_of(spec: &str) -> Result<(String, String), Exit> {
     }
     let is_bare = path.file_name().is_some_and(|name| name == spec);
     let wanted = spec.strip_suffix(".fis").unwrap_or(spec);
-    if is_bare && let Some((_, text)) = BUNDLED.iter().find(|(name, _)| *name == wanted) {
-        return Ok((spec.to_owned(), (*text).to_owned()));
+    if is_bare && let Some(text) = mm_fis::bundled_text(spec) {
+        return Ok((spec.to_owned(), text.to_owned()));
     }
     let what = match (path.is_dir(), is_bare) {
         (true, _) => "it is a folder",
         (false, true) => "no such file and no bundled system of that name",
         (false, false) => "no such file",
     };
-    let names = BUNDLED.iter().map(|(name, _)| *name);
+    let names = mm_fis::bundled().iter().map(|(name, _)| *name);
     let near = nearest(wanted, names).filter(|name| is_near(wanted, name));
     let expected = "a .fis or .fcl file, `-` or one of the bundled systems: `thesis`, `smooth`";
     Err(refuse(&format!("cannot read `{spec}`: {what}"), Some(expected), near))
