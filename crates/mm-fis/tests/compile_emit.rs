@@ -3,6 +3,7 @@
 //! Laws: the constants committed in mm-control are, byte for byte, what the compiler makes of the shipped systems (MMSIM_BLESS=1 writes them anew);
 //! the C function gives the same bits as the evaluation in Rust at all 65,536 inputs, from a compiler that is told to warn of everything;
 //! a TOML file reads back to what was written. No tolerance: all of it is exact.
+#![expect(clippy::expect_used, reason = "helpers outside of test functions")]
 
 mod compile_support;
 

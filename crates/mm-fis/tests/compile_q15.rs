@@ -5,6 +5,12 @@
 //! centroid, which shares no code with the integer engine. Tolerance: 0.5 units from rounding the quotient, 0.5 from cutting the area
 //! to 16 bits, 0.5 reserve for strengths and areas, and saturation at 32767 (one unit at the upper end). Run in the dev profile, every
 //! operation is overflow-checked by the compiler as well: a wrong bound would panic.
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "numbers small by construction"
+)]
+#![expect(clippy::expect_used, clippy::panic, reason = "helpers outside of test functions")]
 
 mod compile_support;
 

@@ -6,15 +6,18 @@
 //! ```
 
 mod emit1;
+mod emit2;
 mod emit_q15;
 mod error;
 mod fit;
+mod function;
 mod jumps;
 mod q15;
 mod request;
 mod row;
 mod steps;
 mod surface1;
+mod surface2;
 mod text;
 
 pub use error::CompileError;
@@ -23,6 +26,7 @@ pub use q15::{OutputRow, OwnedRule, OwnedTrigger, Q15};
 pub use request::Request;
 pub use row::Shape as SlotShape;
 pub use surface1::CompiledSurface;
+pub use surface2::CompiledSurface2;
 pub use text::Origin;
 
 fn unsupported(part: impl Into<String>, reason: &'static str) -> CompileError {

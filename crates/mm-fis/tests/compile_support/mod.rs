@@ -1,6 +1,11 @@
 //! Systems for the tests of the compiler: the two that are shipped, and random ones with a fixed seed.
 #![allow(dead_code, reason = "every test file uses a part of it")]
 #![allow(clippy::allow_attributes, reason = "which part differs from file to file")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "numbers small by construction"
+)]
 #![allow(unreachable_pub, reason = "a module of tests")]
 
 use mm_control::fuzzy::{
@@ -177,7 +182,7 @@ pub fn random(seed: u64, inputs: usize, outputs: usize) -> System {
     System {
         name: format!("random{seed}"),
         kind: Kind::Mamdani,
-        and: if seed % 2 == 0 { And::Min } else { And::Prod },
+        and: if seed.is_multiple_of(2) { And::Min } else { And::Prod },
         or: if seed % 5 < 2 { Or::Probor } else { Or::Max },
         implication,
         aggregation: if sum { Aggregation::Sum } else { Aggregation::Max },

@@ -181,13 +181,13 @@ mod tests {
 
     #[test]
     fn small_numbers_keep_their_ratio() {
-        let value = |x: Small| f64::from(x.mantissa()) * 2.0_f64.powi(x.exponent() as i32 - 278);
-        let numbers = [(3_u64, 40), (65_537, 17), (1, 90), (999_999_999, 30), (5, 3), (1, 1)];
+        let value = |x: Small| f64::from(x.mantissa()) * 2.0_f64.powi(x.exponent().cast_signed() - 278);
+        let numbers: [(u32, u32); 6] = [(3, 40), (65_537, 17), (1, 90), (999_999_999, 30), (5, 3), (1, 1)];
         for (n, s) in numbers {
-            let (a, x) = (Small::new(n, s), n as f64 * 2.0_f64.powi(-(s as i32)));
+            let (a, x) = (Small::new(n.into(), s), f64::from(n) * 2.0_f64.powi(-s.cast_signed()));
             assert!((value(a) / x - 1.0).abs() < 2.0_f64.powi(-22), "{n} 2^-{s}: {}", value(a));
             for (m, t) in numbers {
-                let (b, y) = (Small::new(m, t), m as f64 * 2.0_f64.powi(-(t as i32)));
+                let (b, y) = (Small::new(m.into(), t), f64::from(m) * 2.0_f64.powi(-t.cast_signed()));
                 assert!((value(a.product(b)) / (x * y) - 1.0).abs() < 2.0_f64.powi(-20), "{x} times {y}");
                 let sum = x + y - x * y;
                 assert!((value(a.either(b)) / sum - 1.0).abs() < 2.0_f64.powi(-20), "{x} or {y}");
