@@ -145,7 +145,7 @@ fn broken_toml_is_refused_with_a_reason() {
         (text.replace("surface1", "surface9"), "expected \"surface1\""),
         (text.replace("odd = true", "odd = 3"), "line"),
         (text.replace("start = ", "beginning = "), "unknown field `beginning`"),
-        (text.replace("shift = ", "shift = 3"), "do not find their knots"),
+        (text.replace("shift = ", "shift = 1"), "do not find their knots"),
         (text.replace("knots = [", "knots = [ 40000,"), "i16"),
     ];
     for (text, reason) in broken {

@@ -16,8 +16,9 @@ mod compile_support;
 
 use compile_support::{Random, random, smooth, thesis};
 use mm_control::fuzzy::fixed::{Curve, Engine, Evaluate};
-use mm_fis::compile::Q15;
-use mm_fis::{Accuracy, System};
+use mm_control::fuzzy::{Aggregation, Implication, MembershipFunction as Mf};
+use mm_fis::compile::{CompileError, Q15, value_of};
+use mm_fis::{Accuracy, Defuzzification, Kind, Shape, System};
 
 const TOLERANCE: f64 = 2.0;
 
@@ -38,10 +39,7 @@ fn largest_error(system: &System, points: impl Iterator<Item = Vec<i16>>) -> (f6
                 for point in points {
                     engine.infer(&point, &mut got, &mut words).expect("lengths fit");
                     let x: Vec<f64> = (point.iter().zip(&system.inputs))
-                        .map(|(&q, input)| {
-                            let (middle, half) = half(input.range);
-                            middle + half * (f64::from(q) / 32768.0)
-                        })
+                        .map(|(&q, input)| value_of(input.range, q))
                         .collect();
                     let _met = exact.infer(&x, &mut expected, &mut numbers).expect("lengths fit");
                     for ((&got, &y), output) in got.iter().zip(&expected).zip(&system.outputs) {
@@ -119,4 +117,37 @@ fn mirrored_systems_are_exactly_odd() {
     let mut lopsided = smooth();
     lopsided.rules[0].weight = 0.5;
     assert!(!Q15::compile(&lopsided).expect("still a row").odd, "one weight differs");
+}
+
+#[test]
+fn what_the_engine_has_no_place_for_is_named() {
+    type Change = fn(&mut System);
+    let cases: [(Change, &str); 9] = [
+        (|s| s.kind = Kind::Sugeno, "Sugeno"),
+        (|s| s.defuzzification = Defuzzification::Bisector, "centroid"),
+        (|s| s.aggregation = Aggregation::Probor, "probabilistic sum"),
+        (|s| s.implication = Implication::Prod, "`t1` of output `out1`"),
+        (|s| s.rules[2].outputs[0] = -1, "rule 3"),
+        (|s| s.inputs[0].terms[3].shape = Shape::Set(Mf::Gaussian([1.0, 0.0])), "`t3` of input `in1`"),
+        (
+            |s| s.outputs[0].terms[0].shape = Shape::Set(Mf::Triangle([-1.5, -1.2, -0.7])),
+            "`t0` of output `out1`",
+        ),
+        (
+            |s| s.outputs[0].terms[6].shape = Shape::Set(Mf::Triangle([-0.2, 1.0, 1.2])),
+            "`t4` of output `out1`",
+        ),
+        (|s| s.rules.iter_mut().for_each(|rule| rule.weight = 0.0), "none of them ever fires"),
+    ];
+    for (change, part) in cases {
+        let mut system = smooth();
+        change(&mut system);
+        let refused = Q15::compile(&system);
+        assert!(matches!(refused, Err(CompileError::Unsupported { .. })), "{part}: {refused:?}");
+        let message = refused.map(|_| ()).expect_err(part).to_string();
+        assert!(
+            message.contains(part) && message.contains("compiled surface"),
+            "{message} does not name {part}"
+        );
+    }
 }

@@ -117,15 +117,15 @@ impl CompiledSurface {
             ("q", String::new(), "")
         };
         format!(
-            "/* Output for the input q; the sum below stays within 32 bits: 2^16 * 2^14 + 2^30. */\n\
+            "/* Output for the input q; the product and sum below stay within 32 bits: 2^16 * 2^14 + 2^30. */\n\
              static inline int16_t {prefix}_evaluate(int16_t q)\n{{\n    const int32_t p = {position};\n    \
-             uint32_t past, index;\n    int32_t part, near_knot, rise, y;\n{lookup}{before}    \
-             past = (uint32_t)(p - {start});\n    index = {knot} + (past >> {shift});\n    \
-             part = (int32_t)(past & ((UINT32_C(1) << {shift}) - 1u));\n    near_knot = {prefix}_knots[index];\n    \
-             rise = ({prefix}_knots[index + 1u] - near_knot) * part + (int32_t)((UINT32_C(1) << {shift}) >> 1);\n    \
-             /* floor(rise / 2^shift), without shifting a negative number */\n    \
-             y = near_knot + (int32_t)((uint32_t)(rise + INT32_C(0x40000000)) >> {shift})\n        \
-             - (int32_t)(UINT32_C(0x40000000) >> {shift});\n{turn}    return (int16_t)y;\n}}\n"
+             uint32_t past, index;\n    int32_t near_knot, rise, y;\n{lookup}{before}    \
+             past = (uint32_t)(p - {start}) << {shift};\n    index = {knot} + (past >> 14);\n    \
+             near_knot = {prefix}_knots[index];\n    \
+             rise = ({prefix}_knots[index + 1u] - near_knot) * (int32_t)(past & 0x3fffu) + INT32_C(0x2000);\n    \
+             /* floor(rise / 2^14), without shifting a negative number */\n    \
+             y = near_knot + (int32_t)((uint32_t)(rise + INT32_C(0x40000000)) >> 14) - INT32_C(0x10000);\n{turn}    \
+             return (int16_t)y;\n}}\n"
         )
     }
 

@@ -25,6 +25,7 @@ pub use jumps::Jump;
 pub use q15::{OutputRow, OwnedRule, OwnedTrigger, Q15};
 pub use request::Request;
 pub use row::Shape as SlotShape;
+pub use steps::value_of;
 pub use surface1::CompiledSurface;
 pub use surface2::CompiledSurface2;
 pub use text::Origin;

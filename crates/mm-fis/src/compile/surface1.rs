@@ -275,7 +275,7 @@ impl Fitted {
         let mut needs_neighbour = false;
         for (&(start, end), (shift, own)) in parts.iter().zip(self.0) {
             let knot = u32::try_from(knots.len()).unwrap_or(u32::MAX);
-            sections.push(Section { start, knot, shift });
+            sections.push(Section { start, knot, shift: 14 - shift });
             needs_neighbour = (end - start) % (1 << shift) == 0;
             knots.extend(own);
         }

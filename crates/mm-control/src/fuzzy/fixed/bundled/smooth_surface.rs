@@ -11,7 +11,7 @@ use crate::fuzzy::fixed::{Section, Surface1};
 /// Input range from -1.0 to 1.0, output range from -1.3333333333333333 to 1.3333333333333333.
 #[rustfmt::skip]
 pub const SMOOTH_SURFACE: Surface1<'static> = Surface1 {
-    first: Section { start: 0, knot: 0, shift: 9 },
+    first: Section { start: 0, knot: 0, shift: 5 },
     others: &[],
     knots: &[
         0, -720, -1327, -1874, -2371, -2832, -3266, -3685, -4096, -4507, -4926, -5360, -5821, -6318, -6865, -7472,

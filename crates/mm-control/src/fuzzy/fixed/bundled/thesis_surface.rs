@@ -11,7 +11,7 @@ use crate::fuzzy::fixed::{Section, Surface1};
 /// Input range from -1.4 to 1.4, output range from -1.0 to 1.0.
 #[rustfmt::skip]
 pub const THESIS_SURFACE: Surface1<'static> = Surface1 {
-    first: Section { start: 1, knot: 0, shift: 6 },
+    first: Section { start: 1, knot: 0, shift: 8 },
     others: &[],
     knots: &[
         -29126, -29126, -29125, -29123, -29120, -29116, -29112, -29106, -29101, -29094, -29087, -29079, -29071, -29062, -29052, -29042,
