@@ -7,7 +7,7 @@ use anyhow::Result;
 
 use crate::mmsim::{Mmsim, Profile};
 use crate::shell::{answers, cargo, run as run_command, watch};
-use crate::{fuzzy_peers, scenarios, targets};
+use crate::{bench_targets, fuzzy_peers, scenarios};
 
 /// How a step ended, unless it failed.
 enum End {
@@ -36,8 +36,9 @@ const STEPS: [Step; 9] = [
         run_command(cargo.env("RUSTDOCFLAGS", "-D warnings"))?;
         Ok(End::Done)
     }),
-    ("bare metal", |_| {
-        targets::build(false)?;
+    // Building the programs builds mm-model and mm-control for the targets.
+    ("microcontrollers: lints, builds, instructions, bits", |_| {
+        bench_targets::check()?;
         Ok(End::Done)
     }),
     ("tests, dev profile", |tests| test(tests, &[])),

@@ -30,7 +30,7 @@ const fn operation(name: &'static str, what: &'static str, times: u64) -> Operat
     Operation { name, what, times, budget: None, peers: "" }
 }
 
-const OPERATIONS: [Operation; 13] = [
+const OPERATIONS: [Operation; 15] = [
     Operation {
         budget: Some(975),
         peers: "CasADi C 975, Pinocchio 10,364",
@@ -43,10 +43,13 @@ const OPERATIONS: [Operation; 13] = [
     operation("sin-cos", "sine and cosine, f64", 6_400),
     operation("sin-cos-f32", "sine and cosine, f32", 6_400),
     Operation {
-        peers: "fuzzylite 23,884",
+        budget: Some(800),
+        peers: "fuzzylite 23,884, eFLL 3,040",
         ..operation("fuzzy-exact", "fuzzy system of the thesis, exact", 6_400)
     },
-    operation("fuzzy-surface", "fuzzy surface, 65 knots", 6_400),
+    operation("fuzzy-q15", "the same in fixed point", 6_400),
+    Operation { budget: Some(40), ..operation("fuzzy-surface-q15", "the same compiled to a surface", 6_400) },
+    operation("fuzzy-surface", "float surface, 65 knots", 6_400),
     operation("update-bfsmc", "controller update, bfsmc", 4_000),
     operation("update-bsmc", "controller update, bsmc", 4_000),
     operation("plant-step", "plant step, Runge-Kutta 4", 4_096),

@@ -2,6 +2,7 @@
 //!
 //! Each job is a module; what they share is in [`shell`] (processes), [`parallel`] (threads) and [`table`] (output).
 
+mod bench_targets;
 mod ci;
 mod claim;
 mod count;
@@ -31,6 +32,7 @@ cargo xtask <job>
   claim               judges the thesis's claim on square-compare into docs/claim.csv [--mmsim FILE]
   bench-instructions  counts the instructions of each operation with callgrind [--json] [--target-cpu CPU]
   fuzz                feeds any text to the readers of .fis and FCL, with nightly and cargo-fuzz [--seconds N: each target]
+  bench-targets       counts the instructions of the fuzzy engines on microcontrollers, under QEMU [--json] [--fallback]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -96,6 +98,12 @@ fn run() -> Result<ExitCode> {
             let seconds = seconds.map_or(Ok(60), |seconds| seconds.parse());
             fuzz::fuzz(seconds.context("--seconds takes a whole number")?)?;
             ExitCode::SUCCESS
+        }
+        "bench-targets" => {
+            let json = arguments.flag("--json");
+            let fallback = arguments.flag("--fallback");
+            arguments.finish()?;
+            bench_targets::run(json, fallback)?
         }
         "real-time" => {
             let runs = arguments.value("--runs")?;

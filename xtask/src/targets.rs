@@ -3,7 +3,7 @@
 //! First choice is the toolchain of rustup with the targets' own core. Where rustup reaches nothing, Debian's compiler builds core
 //! itself from its source package; `--fallback` or MMSIM_TARGETS=debian asks for that.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result};
@@ -19,24 +19,50 @@ const CRATES: [&str; 2] = ["mm-model", "mm-control"];
 /// Packages of Debian's compiler with the sources of core.
 const PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
 
+/// A cargo that builds for the targets, and where it puts that.
+pub(crate) struct Compiler {
+    /// The command up to `build`, options of the compiler included.
+    pub(crate) cargo: Command,
+    /// Its target directory.
+    pub(crate) directory: PathBuf,
+    debian: bool,
+}
+
+impl Compiler {
+    /// That of rustup, or Debian's where that was asked for or rustup has no targets.
+    pub(crate) fn find(fallback: bool) -> Result<Self> {
+        let asked = fallback || std::env::var("MMSIM_TARGETS").is_ok_and(|value| value == "debian");
+        let directory = target_directory()?;
+        if !asked && ensure_rustup_targets() {
+            return Ok(Self { cargo: cargo(&["build"]), directory, debian: false });
+        }
+        let directory = directory.join("debian");
+        Ok(Self { cargo: debian(&directory)?, directory, debian: true })
+    }
+
+    /// What it is, in words.
+    pub(crate) const fn name(&self) -> &'static str {
+        if self.debian { "Debian's compiler, building core" } else { "the targets of rustup" }
+    }
+
+    /// Whether clippy knows the targets too.
+    pub(crate) const fn has_clippy(&self) -> bool {
+        !self.debian
+    }
+}
+
 /// Builds the crates for all targets.
 pub(crate) fn build(fallback: bool) -> Result<()> {
-    let asked = fallback || std::env::var("MMSIM_TARGETS").is_ok_and(|value| value == "debian");
-    let mut cargo = if !asked && ensure_rustup_targets() {
-        println!("bare metal: the targets of rustup");
-        cargo(&["build"])
-    } else {
-        println!("bare metal: Debian's compiler, building core");
-        debian()?
-    };
-    cargo.args(["--release", "--locked"]);
+    let mut compiler = Compiler::find(fallback)?;
+    println!("bare metal: {}", compiler.name());
+    compiler.cargo.args(["--release", "--locked"]);
     for name in CRATES {
-        cargo.args(["-p", name]);
+        compiler.cargo.args(["-p", name]);
     }
     for target in TARGETS {
-        cargo.args(["--target", target]);
+        compiler.cargo.args(["--target", target]);
     }
-    run(&mut cargo)?;
+    run(&mut compiler.cargo)?;
     println!("bare metal: {} built for {}", CRATES.join(" and "), TARGETS.join(" and "));
     Ok(())
 }
@@ -55,7 +81,7 @@ fn ensure_rustup_targets() -> bool {
 }
 
 /// Debian's cargo, told to build core, with a linker and a target directory of its own.
-fn debian() -> Result<Command> {
+fn debian(directory: &Path) -> Result<Command> {
     let has_sources = Path::new("/usr/lib/rustlib/src").exists();
     if !(answers("/usr/bin/cargo", &["--version"])
         && answers("/usr/bin/rustc", &["--version"])
@@ -70,7 +96,7 @@ fn debian() -> Result<Command> {
     for variable in ["RUSTUP_TOOLCHAIN", "CARGO", "LD_LIBRARY_PATH", "RUSTC_WRAPPER", "RUSTFLAGS"] {
         cargo.env_remove(variable);
     }
-    cargo.env("CARGO_TARGET_DIR", target_directory()?.join("debian"));
+    cargo.env("CARGO_TARGET_DIR", directory);
     let lld = linker_directory()?;
     let path = std::env::var_os("PATH").context("no PATH")?;
     let directories = std::env::split_paths(&path).chain(lld.map(Into::into));

@@ -1,0 +1,16 @@
+//! Instructions of one evaluation, counted by a clock that advances by a fixed time an instruction.
+//!
+//! An emulator can be told to do so: `qemu-system-arm -icount shift=10` lets every instruction take 1,024 ns of the machine's
+//! time, and a timer of the machine shows that time. How many ticks an instruction takes is found out by a loop of known
+//! length, so that the program does not have to know the clock; other lengths of the loop then have to give exactly
+//! their length.
+//!
+//! An evaluation is measured as a call of a function that is not inlined, with the call and the return: between two readings of the
+//! clock, less what two readings with nothing but the loading of the input between them take.
+#![no_std]
+
+mod fuzzy;
+mod measure;
+
+pub use fuzzy::run;
+pub use measure::{Clock, Count, Counter, Miscounted};

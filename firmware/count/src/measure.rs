@@ -1,0 +1,136 @@
+//! The counting.
+
+use core::fmt;
+use core::hint::black_box;
+
+/// Time that advances by the same number of ticks with every instruction.
+pub trait Clock {
+    /// Ticks since any moment, modulo 2^24.
+    fn ticks(&self) -> u32;
+    /// Spends exactly this many instructions, an even number, and any fixed number in addition.
+    fn spend(&self, instructions: u32);
+}
+
+/// Instructions that evaluations of one kind took, and what they gave.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Number of evaluations, one an input.
+    pub evaluations: u32,
+    /// Instructions of all of them.
+    pub total: u32,
+    /// Least instructions of one.
+    pub min: u32,
+    /// Most instructions of one.
+    pub max: u32,
+    /// Number of the input, from 0, that took the most.
+    pub worst: u32,
+    /// The outputs' bits as the digits of a number with base 31, modulo 2^32: their order counts, and opposites do not cancel.
+    pub checksum: u32,
+}
+
+impl fmt::Display for Count {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { evaluations, total, min, max, worst, checksum } = *self;
+        let mean = (total + evaluations / 2).checked_div(evaluations).unwrap_or(0);
+        write!(
+            f,
+            "evaluations={evaluations} total={total} min={min} mean={mean} max={max} worst={worst} checksum={checksum:08x}"
+        )
+    }
+}
+
+/// The clock does not advance evenly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Miscounted {
+    /// Length of a loop, in instructions.
+    pub expected: u32,
+    /// What the clock made of it.
+    pub counted: u32,
+}
+
+/// A clock and what is known of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Counter<C> {
+    clock: C,
+    /// Ticks of [`REFERENCE`] instructions.
+    reference: u32,
+    /// Ticks between two readings with an input between.
+    overhead: u32,
+}
+
+/// Length of the loop that the clock is calibrated with.
+const REFERENCE: u32 = 10_000;
+
+/// Other lengths, which the calibrated clock has to find.
+const PROBES: [u32; 6] = [2, 4, 10, 100, 1_000, 20_000];
+
+impl<C: Clock> Counter<C> {
+    /// Calibrates the clock and verifies it.
+    ///
+    /// # Errors
+    /// [`Miscounted`], where the length of a loop is not found exactly.
+    pub fn calibrated(clock: C) -> Result<Self, Miscounted> {
+        let mut counter = Self { clock, reference: 0, overhead: 0 };
+        let empty = counter.looped(0);
+        counter.reference = counter.looped(REFERENCE).wrapping_sub(empty);
+        for expected in PROBES {
+            let counted = counter.instructions(counter.looped(expected).wrapping_sub(empty));
+            if counted != expected {
+                return Err(Miscounted { expected, counted });
+            }
+        }
+        counter.overhead = counter.between(|| {
+            black_box(black_box(1_u32));
+        });
+        Ok(counter)
+    }
+
+    /// Evaluates at every input; the checksum is of what `bits` makes of the outputs.
+    pub fn count<I: Copy, O: Copy>(
+        &self,
+        inputs: impl Iterator<Item = I>,
+        evaluate: impl Fn(I) -> O,
+        bits: impl Fn(O) -> u32,
+    ) -> Count {
+        let mut count = Count { min: u32::MAX, ..Count::default() };
+        for input in inputs {
+            let start = self.clock.ticks();
+            let output = black_box(evaluate(black_box(input)));
+            let ticks = elapsed(start, self.clock.ticks());
+            let instructions = self.instructions(ticks.wrapping_sub(self.overhead));
+            if instructions > count.max {
+                (count.max, count.worst) = (instructions, count.evaluations);
+            }
+            count.min = count.min.min(instructions);
+            count.total += instructions;
+            count.evaluations += 1;
+            count.checksum = count.checksum.wrapping_mul(31).wrapping_add(bits(output));
+        }
+        count
+    }
+
+    /// Ticks of a loop.
+    #[inline(never)]
+    fn looped(&self, instructions: u32) -> u32 {
+        self.between(|| self.clock.spend(black_box(instructions)))
+    }
+
+    #[inline(always)]
+    fn between(&self, work: impl FnOnce()) -> u32 {
+        let start = self.clock.ticks();
+        work();
+        elapsed(start, self.clock.ticks())
+    }
+
+    /// Ticks as instructions, to the nearest whole number: a reading is rounded to a tick, and an instruction takes many.
+    #[expect(clippy::cast_possible_truncation, reason = "2^24 ticks are fewer instructions")]
+    fn instructions(&self, ticks: u32) -> u32 {
+        let (ticks, reference) = (u64::from(ticks), u64::from(self.reference));
+        (ticks * u64::from(REFERENCE) + reference / 2).checked_div(reference).unwrap_or(0) as u32
+    }
+}
+
+/// Ticks from one reading to another.
+const fn elapsed(start: u32, end: u32) -> u32 {
+    end.wrapping_sub(start) & 0x00ff_ffff
+}
