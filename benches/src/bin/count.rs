@@ -8,6 +8,7 @@ use std::hint::black_box;
 use anyhow::{Context, Result, bail, ensure};
 use mm_benches::{numbers, points, recorded, robot, square, stack};
 use mm_control::LawKind;
+use mm_control::fuzzy::fixed::{self, Evaluate, THESIS_Q15, THESIS_SURFACE};
 use mm_control::fuzzy::{Curve, FuzzySystem, SMOOTH, Surface, THESIS};
 use mm_model::{Force, Real};
 use mm_sim::disturbance::Disturbances;
@@ -49,6 +50,11 @@ fn main() -> Result<()> {
             let engine = Curve::<f64>::try_new(&THESIS)?;
             repeat(times, &numbers(-1.4, 1.4), |x| black_box(&engine).evaluate(*x));
         }
+        "fuzzy-q15" => {
+            let engine = fixed::Curve::<8>::try_new(&THESIS_Q15)?;
+            repeat(times, &steps(), |q| black_box(&engine).evaluate(*q));
+        }
+        "fuzzy-surface-q15" => repeat(times, &steps(), |q| black_box(&THESIS_SURFACE).evaluate(*q)),
         "fuzzy-surface" => {
             let surface = Surface::<f64, 65>::from_engine(&Curve::<f64>::try_new(&SMOOTH)?)?;
             repeat(times, &numbers(-1.0, 1.0), |x| black_box(&surface).evaluate(*x));
@@ -70,6 +76,11 @@ fn main() -> Result<()> {
         other => bail!("no operation `{other}`"),
     }
     Ok(())
+}
+
+/// 64 inputs in fixed point, equally spaced over the whole range.
+fn steps() -> Vec<i16> {
+    (-32_768_i16..=32_767).step_by(1_040).collect()
 }
 
 /// Applies `operation` `times` times, to the inputs in turn.
