@@ -5,8 +5,8 @@
 //! length, so that the program does not have to know the clock; other lengths of the loop then have to give exactly
 //! their length.
 //!
-//! An evaluation is measured as a call of a function that is not inlined, with the call and the return: between two readings of the
-//! clock, less what two readings with nothing but the loading of the input between them take.
+//! An evaluation is measured as a call of a function that is not inlined, between two readings of the clock, less what the same takes with
+//! an empty function.
 #![no_std]
 
 mod fuzzy;

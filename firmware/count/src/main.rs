@@ -10,6 +10,9 @@ use cortex_m_rt::entry;
 use cortex_m_semihosting::{debug, hio};
 use count::{Clock, Counter};
 
+/// Ticks of 10,000 instructions of 1,024 ns (`-icount shift=10`) at the 25 MHz of mps2-an386 and the 16 MHz of the microbit.
+const TICKS: [u32; 2] = [256_000, 163_840];
+
 /// The timer that every Cortex-M may have, on the clock of the core; it counts down.
 struct SysTick;
 
@@ -31,8 +34,8 @@ impl Clock for SysTick {
 
     #[inline(always)]
     fn spend(&self, instructions: u32) {
-        // A loop of two instructions, run once more than half of the number says.
-        cortex_m::asm::delay(instructions);
+        // A loop of two instructions, run once more than its argument says.
+        cortex_m::asm::delay(instructions / 2);
     }
 }
 
@@ -51,6 +54,11 @@ fn run(out: &mut impl Write) -> bool {
             return false;
         }
     };
+    // The loop and the clock have to agree on what an instruction is; a tick more or less is rounding.
+    if !TICKS.iter().any(|ticks| counter.reference().abs_diff(*ticks) <= 1) {
+        let _ = writeln!(out, "calibration: {} ticks, one of {TICKS:?} expected", counter.reference());
+        return false;
+    }
     match count::run(&counter, out) {
         Ok(()) => true,
         Err(error) => {

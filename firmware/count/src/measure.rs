@@ -54,8 +54,6 @@ pub struct Counter<C> {
     clock: C,
     /// Ticks of [`REFERENCE`] instructions.
     reference: u32,
-    /// Ticks between two readings with an input between.
-    overhead: u32,
 }
 
 /// Length of the loop that the clock is calibrated with.
@@ -70,7 +68,7 @@ impl<C: Clock> Counter<C> {
     /// # Errors
     /// [`Miscounted`], where the length of a loop is not found exactly.
     pub fn calibrated(clock: C) -> Result<Self, Miscounted> {
-        let mut counter = Self { clock, reference: 0, overhead: 0 };
+        let mut counter = Self { clock, reference: 0 };
         let empty = counter.looped(0);
         counter.reference = counter.looped(REFERENCE).wrapping_sub(empty);
         for expected in PROBES {
@@ -79,25 +77,24 @@ impl<C: Clock> Counter<C> {
                 return Err(Miscounted { expected, counted });
             }
         }
-        counter.overhead = counter.between(|| {
-            black_box(black_box(1_u32));
-        });
         Ok(counter)
     }
 
-    /// Evaluates at every input; the checksum is of what `bits` makes of the outputs.
-    pub fn count<I: Copy, O: Copy>(
+    /// Evaluates a system at every input; the checksum is of what `bits` makes of the outputs.
+    ///
+    /// Counted is what an evaluation takes beyond a function that hands back its input, called from the same place.
+    pub fn count<S, X: Copy>(
         &self,
-        inputs: impl Iterator<Item = I>,
-        evaluate: impl Fn(I) -> O,
-        bits: impl Fn(O) -> u32,
+        system: &S,
+        inputs: impl Iterator<Item = X> + Clone,
+        evaluate: fn(&S, X) -> X,
+        bits: fn(X) -> u32,
     ) -> Count {
         let mut count = Count { min: u32::MAX, ..Count::default() };
+        let overhead = inputs.clone().take(2).map(|x| self.timed(system, x, nothing).0).last().unwrap_or(0);
         for input in inputs {
-            let start = self.clock.ticks();
-            let output = black_box(evaluate(black_box(input)));
-            let ticks = elapsed(start, self.clock.ticks());
-            let instructions = self.instructions(ticks.wrapping_sub(self.overhead));
+            let (ticks, output) = self.timed(system, input, evaluate);
+            let instructions = self.instructions(ticks.wrapping_sub(overhead));
             if instructions > count.max {
                 (count.max, count.worst) = (instructions, count.evaluations);
             }
@@ -107,6 +104,22 @@ impl<C: Clock> Counter<C> {
             count.checksum = count.checksum.wrapping_mul(31).wrapping_add(bits(output));
         }
         count
+    }
+
+    /// Ticks of 10,000 instructions, for a comparison with what is known of the clock.
+    #[must_use]
+    pub const fn reference(&self) -> u32 {
+        self.reference
+    }
+
+    /// Ticks of one call with what is around it, and its output. There is one place of it for all functions of a kind.
+    #[inline(never)]
+    fn timed<S, X: Copy>(&self, system: &S, input: X, evaluate: fn(&S, X) -> X) -> (u32, X) {
+        let (system, input, evaluate) = (black_box(system), black_box(input), black_box(evaluate));
+        let start = self.clock.ticks();
+        let output = evaluate(system, input);
+        let end = self.clock.ticks();
+        (elapsed(start, end), black_box(output))
     }
 
     /// Ticks of a loop.
@@ -128,6 +141,11 @@ impl<C: Clock> Counter<C> {
         let (ticks, reference) = (u64::from(ticks), u64::from(self.reference));
         (ticks * u64::from(REFERENCE) + reference / 2).checked_div(reference).unwrap_or(0) as u32
     }
+}
+
+/// Hands back its input.
+fn nothing<S, X>(_system: &S, x: X) -> X {
+    x
 }
 
 /// Ticks from one reading to another.
