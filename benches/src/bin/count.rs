@@ -55,6 +55,10 @@ fn main() -> Result<()> {
             repeat(times, &steps(), |q| black_box(&engine).evaluate(*q));
         }
         "fuzzy-surface-q15" => repeat(times, &steps(), |q| black_box(&THESIS_SURFACE).evaluate(*q)),
+        "loop-q15" => repeat(times, &steps(), |q| {
+            black_box(&THESIS_SURFACE);
+            *q
+        }),
         "fuzzy-surface" => {
             let surface = Surface::<f64, 65>::from_engine(&Curve::<f64>::try_new(&SMOOTH)?)?;
             repeat(times, &numbers(-1.0, 1.0), |x| black_box(&surface).evaluate(*x));
