@@ -9,10 +9,11 @@ use super::cells::{Cell, joined};
 use crate::{Rule, System};
 
 /// Rules looked at, over all cells, before the search gives up.
-const BUDGET: usize = 20_000_000;
+const BUDGET: usize = 2_000_000;
 
 /// A box of inputs: an interval for each, from the first.
-pub(super) type Region = Vec<(f64, f64)>;
+pub(super) type Region = Vec<Interval>;
+type Interval = (f64, f64);
 
 /// What is being searched.
 struct Search<'a> {
@@ -73,7 +74,7 @@ impl Search<'_> {
             return Some(Rc::clone(known));
         }
         let axes = self.axes;
-        let mut parts: Vec<((f64, f64), Rc<Vec<Region>>)> = Vec::new();
+        let mut parts: Vec<(Interval, Rc<Vec<Region>>)> = Vec::new();
         for cell in axes.get(axis)? {
             self.left = self.left.checked_sub(key.1.len().wrapping_add(1))?;
             let rest = match self.survivors(axis, cell, &key.1) {
@@ -85,7 +86,7 @@ impl Search<'_> {
                 _ => parts.push(((cell.from, cell.to), rest)),
             }
         }
-        let region = |interval: (f64, f64), rest: &Region| [&[interval], rest.as_slice()].concat();
+        let region = |interval: Interval, rest: &Region| [&[interval], rest.as_slice()].concat();
         let regions = parts
             .iter()
             .flat_map(|(interval, rest)| rest.iter().map(|rest| region(*interval, rest)))

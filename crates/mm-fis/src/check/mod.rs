@@ -22,7 +22,7 @@ use mm_control::fuzzy::FuzzyError;
 
 use crate::System;
 
-pub use outputs::along;
+pub use outputs::{Course, along};
 
 /// How serious a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -2,6 +2,7 @@
 
 use mm_control::fuzzy::{FuzzyError, Sampling};
 
+use super::cells::{is_tailed, set_of};
 use super::probe::Probe;
 use super::scan::{Place, Scan, places};
 use super::words::{Short, list};
@@ -9,7 +10,7 @@ use super::{Finding, FindingKind as Kind, Jump, Reach, Run};
 use crate::{Accuracy, Defuzzification, System, Variable};
 
 /// Work that the scans may take, in units of about a nanosecond.
-const WORK: usize = 60_000_000;
+const WORK: usize = 40_000_000;
 /// Most lines along an input, and most values of each other input.
 const MOST_LINES: usize = 128;
 const MOST_VALUES: usize = 33;
@@ -78,28 +79,31 @@ fn with_probe<R>(system: &System, work: impl Fn(Probe<'_>, Known) -> R) -> Resul
     system.with_engine(accuracy, |engine| work(Probe::new(engine, system), known))
 }
 
+/// An output along one input.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Course {
+    /// Input and output, in ascending order of the input: dense, and to both sides of every breakpoint.
+    pub points: Vec<(f64, f64)>,
+    /// The jumps, in ascending order.
+    pub jumps: Vec<Jump>,
+}
+
 /// An output along one input, the others held at the values of `base`: points in ascending order, and the jumps.
 ///
-/// The points are dense, and to both sides of every breakpoint; an exact centroid is taken where there is one.
+/// An exact centroid is taken where there is one. An output or an input that does not exist has no points.
 ///
 /// # Errors
 /// As [`System::with_engine`].
-pub fn along(
-    system: &System,
-    output: usize,
-    axis: usize,
-    base: &[f64],
-) -> Result<(Vec<(f64, f64)>, Vec<Jump>), FuzzyError> {
-    let empty = (Vec::new(), Vec::new());
+pub fn along(system: &System, output: usize, axis: usize, base: &[f64]) -> Result<Course, FuzzyError> {
     let (Some(input), Some(variable)) = (system.inputs.get(axis), system.outputs.get(output)) else {
-        return Ok(empty);
+        return Ok(Course::default());
     };
     let width = variable.range.1 - variable.range.0;
     with_probe(system, |mut probe, known| {
         let places = places(input, if known.samples.is_some() { 500 } else { 2000 });
         let scan = Scan::new(&mut probe, base, (axis, input.range), &places);
         let points = scan.curve(output).into_iter().map(|(place, value)| (place.x(), value)).collect();
-        (points, scan.jumps(&mut probe, output, known.jump * width))
+        Course { points, jumps: scan.jumps(&mut probe, output, known.jump * width) }
     })
 }
 
@@ -110,10 +114,13 @@ fn grain(system: &System, Known { samples, jump, turn }: Known) -> Grain {
     }
     let parts: u32 = if samples.is_some() { 48 } else { 96 };
     let count = |variables: &[Variable]| variables.iter().map(|variable| variable.terms.len()).sum::<usize>();
+    let is_curved = |term: &&crate::Term| set_of(term).is_some_and(is_tailed);
+    let curved = system.inputs.iter().flat_map(|input| &input.terms).filter(is_curved).count();
     let inputs = system.inputs.len();
     let sampling = samples.map_or(0, |samples| samples as usize).saturating_mul(20 * system.outputs.len());
     let one = (3 * inputs + 2 * system.outputs.len()).saturating_mul(system.rules.len())
         + 20 * (count(&system.inputs) + count(&system.outputs))
+        + 200 * curved
         + sampling;
     let line =
         one.saturating_mul(parts as usize + 12 * system.inputs.first().map_or(0, |input| input.terms.len()));
@@ -159,7 +166,10 @@ fn analyse(system: &System, mut probe: Probe<'_>, grain: Grain) -> Probed {
             findings.extend(turns(system, output, axis, &own));
         }
     }
-    findings.extend(outputs.iter().flat_map(reach));
+    for (number, output) in outputs.iter().enumerate() {
+        let is_used = |rule: &crate::Rule| rule.outputs.get(number).is_some_and(|&index| index != 0);
+        findings.extend(reach(output).filter(|_| system.rules.iter().any(is_used)));
+    }
     Probed { findings, outputs, is_sampled: grain.is_sampled }
 }
 

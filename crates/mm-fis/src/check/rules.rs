@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use mm_control::fuzzy::{Aggregation, Connective};
 
-use super::cells::Cell;
+use super::cells::{Cell, FAINT, set_of};
 use super::gaps;
 use super::words::{Short, Span, list};
 use super::{Finding, FindingKind as Kind};
@@ -42,7 +42,7 @@ pub(super) fn find(system: &System, axes: &[Vec<Cell>], skipped: &mut Vec<String
                 variable.name
             )),
             Some(regions) if regions.is_empty() => {}
-            Some(regions) => found.push(unfired(system, variable, regions)),
+            Some(regions) => found.push(unfired(system, (output, variable), regions)),
         }
     }
     found
@@ -94,15 +94,18 @@ fn unreachable(system: &System, axes: &[Vec<Cell>], (number, rule): (usize, &Rul
     Some(Finding::new(Kind::UnreachableRule, message).rules(vec![number]))
 }
 
-/// The condition of a rule, as a key: a single clause has no connective.
-fn key(rule: &Rule) -> (Vec<i16>, bool) {
+/// The terms of a condition, and whether they are joined by or.
+type Condition = (Vec<i16>, bool);
+
+/// The condition of a rule; a single clause has no connective.
+fn key(rule: &Rule) -> Condition {
     let clauses = rule.inputs.iter().filter(|&&index| index != 0).count();
     (rule.inputs.clone(), clauses != 1 && rule.connective == Connective::Or)
 }
 
 /// Rules of one condition: those that conclude the same, and those that contradict.
 fn same_condition(system: &System) -> Vec<Finding> {
-    let mut groups: HashMap<(Vec<i16>, bool), Vec<(usize, &Rule)>> = HashMap::new();
+    let mut groups: HashMap<Condition, Vec<(usize, &Rule)>> = HashMap::new();
     let mut order = Vec::new();
     for (number, rule) in (1..).zip(&system.rules) {
         let key = key(rule);
@@ -232,11 +235,37 @@ fn dominates(other: &Rule, rule: &Rule) -> bool {
     }
 }
 
-fn unfired(system: &System, output: &Variable, regions: Vec<gaps::Region>) -> Finding {
+/// Whether some rule fires for an output in the middle of a region, if only by the tail of a term.
+fn fires_faintly(system: &System, output: usize, region: &gaps::Region) -> bool {
+    let degree = |(variable, ((from, to), index)): (&Variable, (&(f64, f64), &i16))| {
+        let term = variable.terms.get(usize::from(index.unsigned_abs()).checked_sub(1)?)?;
+        let degree = set_of(term)?.degree(0.5 * from + 0.5 * to);
+        Some(if *index < 0 { 1.0 - degree } else { degree })
+    };
+    let fires = |rule: &Rule| {
+        let mut degrees = system.inputs.iter().zip(region.iter().zip(&rule.inputs)).filter_map(degree);
+        match rule.connective {
+            Connective::And => degrees.all(|degree| degree > 0.0),
+            Connective::Or => degrees.any(|degree| degree > 0.0),
+        }
+    };
+    let concludes =
+        |rule: &&Rule| rule.weight > 0.0 && rule.outputs.get(output).is_some_and(|&index| index != 0);
+    system.rules.iter().filter(concludes).any(fires)
+}
+
+fn unfired(system: &System, (number, output): (usize, &Variable), regions: Vec<gaps::Region>) -> Finding {
     let (lo, hi) = output.range;
     let value =
         if system.defuzzification == Defuzzification::WeightedSum { 0.0 } else { 0.5 * lo + 0.5 * hi };
-    let then = format!("output `{}` is {} there", output.name, Short(value));
+    let is_faint = regions.iter().any(|region| fires_faintly(system, number, region));
+    let no_rule =
+        if is_faint { format!("no rule fires by {FAINT} or more") } else { "no rule fires".to_owned() };
+    let then = if is_faint {
+        format!("output `{}` rests on the tails of terms there", output.name)
+    } else {
+        format!("output `{}` is {} there", output.name, Short(value))
+    };
     let [input] = system.inputs.as_slice() else {
         let ranges: Vec<(f64, f64)> = system.inputs.iter().map(|input| input.range).collect();
         let share = gaps::share(&regions, &ranges);
@@ -250,14 +279,14 @@ fn unfired(system: &System, output: &Variable, regions: Vec<gaps::Region>) -> Fi
         } else {
             format!("at some single inputs, for example {example}")
         };
-        let message = format!("no rule fires {where_to}: {then}");
+        let message = format!("{no_rule} {where_to}: {then}");
         let mut finding = Finding::new(Kind::NoRuleFires, message).about(&[&output.name]);
         finding.regions = regions.into_iter().take(MOST_REGIONS).collect();
         return finding;
     };
     let intervals = gaps::intervals(&regions);
     let spans: Vec<String> = intervals.iter().map(|(from, to)| Span(*from, *to).to_string()).collect();
-    let message = format!("no rule fires for `{}` {}: {then}", input.name, list(&spans, 8));
+    let message = format!("{no_rule} for `{}` {}: {then}", input.name, list(&spans, 8));
     let mut finding = Finding::new(Kind::NoRuleFires, message).about(&[&input.name, &output.name]);
     finding.intervals = intervals;
     finding

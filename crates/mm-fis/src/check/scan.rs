@@ -164,7 +164,9 @@ impl<'a> Scan<'a> {
         let ends: Vec<(f64, f64, f64)> = (0..turns.len())
             .filter_map(|number| {
                 let turn = turns.get(number)?;
-                let (place, value) = *curve.get(turn.first)?;
+                let place = curve.get(turn.first)?.0;
+                let level = values.get(turn.first..=turn.last)?.iter().copied();
+                let value = level.reduce(if turn.is_high { f64::max } else { f64::min })?;
                 let is_inner = number > 0 && number.saturating_add(1) < turns.len();
                 if turn.first != turn.last
                     || !is_inner

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use mm_control::fuzzy::MembershipFunction as Set;
 
-use super::cells::{Cell, breakpoints, cells, joined, set_of};
+use super::cells::{Cell, FAINT, breakpoints, cells, is_tailed, joined, set_of};
 use super::words::{Short, Span, by_count, list, names};
 use super::{Finding, FindingKind as Kind};
 use crate::{Rule, System, Variable};
@@ -125,7 +125,9 @@ fn uncovered(used: &Used<'_>, cells: &[Cell]) -> Option<Finding> {
         return None;
     }
     let spans: Vec<String> = intervals.iter().map(|(from, to)| Span(*from, *to).to_string()).collect();
-    let message = format!("no term of {} holds {}", used.title(), list(&spans, 8));
+    let is_tailed = used.variable.terms.iter().filter_map(set_of).any(is_tailed);
+    let least = if is_tailed { format!(" by {FAINT} or more") } else { String::new() };
+    let message = format!("no term of {} holds{least} {}", used.title(), list(&spans, 8));
     let mut finding = used.finding(Kind::UncoveredInput, message);
     finding.intervals = intervals;
     Some(finding)
@@ -217,8 +219,8 @@ fn centroid(set: &Set<f64>, from: f64, to: f64) -> Option<f64> {
     Some(moment / area).filter(|centroid| centroid.is_finite())
 }
 
-/// Where a set is largest, within a range: the middle of it.
-fn core_middle(set: &Set<f64>, (lo, hi): (f64, f64)) -> f64 {
+/// Where a set is largest, within a range.
+fn core(set: &Set<f64>, (lo, hi): (f64, f64)) -> (f64, f64) {
     let (from, to) = match *set {
         Set::Triangle([_, b, _]) => (b, b),
         Set::Trapezoid([_, b, c, _]) | Set::Pi([_, b, c, _]) => (b, c),
@@ -236,7 +238,7 @@ fn core_middle(set: &Set<f64>, (lo, hi): (f64, f64)) -> f64 {
         | Set::SigmoidDifference([_, c1, _, c2])
         | Set::SigmoidProduct([_, c1, _, c2]) => (c1, c2),
     };
-    0.5 * from.max(lo).min(hi) + 0.5 * to.max(lo).min(hi)
+    (from.max(lo).min(hi), to.max(lo).min(hi))
 }
 
 /// Terms that are out of order, equal, or of one name.
@@ -256,10 +258,13 @@ fn alike(used: &Used<'_>) -> Vec<Finding> {
             found.push(used.finding(Kind::EqualTerms, message).terms(terms));
         }
     }
-    let (lo, hi) = variable.range;
-    let middle = |set: &Set<f64>| core_middle(set, variable.range);
+    let room = MOVED * (variable.range.1 - variable.range.0);
+    let is_below = |set: &Set<f64>, other: &Set<f64>| {
+        let (own, others) = (core(set, variable.range), core(other, variable.range));
+        own.0 < others.0 - room && own.1 < others.1 - room
+    };
     let falling = sets.windows(2).find_map(|pair| match pair {
-        [(before, left), (after, right)] if middle(left) > middle(right) + MOVED * (hi - lo) => {
+        [(before, left), (after, right)] if is_below(right, left) => {
             Some(((*before).to_owned(), (*after).to_owned()))
         }
         _ => None,

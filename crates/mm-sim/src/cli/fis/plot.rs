@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use mm_control::fuzzy::{FuzzyError, MembershipFunction, Sampling};
+use mm_fis::check::{Course, along};
 use mm_fis::{Accuracy, Shape, System, Variable};
 
 use super::super::{Exit, complain, print};
@@ -191,7 +192,7 @@ fn response(system: &System, axis: usize, output: usize) -> Result<Option<Respon
     let (Some(input), Some(variable)) = (system.inputs.get(axis), system.outputs.get(output)) else {
         return Ok(None);
     };
-    let (points, jumps) = mm_fis::check::along(system, output, axis, &middles(system))?;
+    let Course { points, jumps } = along(system, output, axis, &middles(system))?;
     let breaks = jumps.iter().map(|jump| Break {
         at: jump.inputs.get(axis).copied().unwrap_or(0.0),
         values: [jump.left, jump.value, jump.right],
