@@ -1,6 +1,8 @@
 //! `mmsim fis`: fuzzy systems from files: evaluate, check, draw, compile.
 
 mod check;
+mod compile;
+mod engines;
 mod eval;
 mod file;
 mod plot;
@@ -31,8 +33,15 @@ pub(super) enum FisCommand {
     #[command(after_help = "Examples:\n  \
         mmsim fis plot thesis                       writes thesis.svg\n  \
         mmsim fis plot tip.fis -o pictures/tip.svg\n  \
+        mmsim fis plot thesis --overlay surface     with the compiled surface on top\n  \
         mmsim fis plot three.fis --inputs 1,3       the second input stays in the middle of its range")]
     Plot(plot::PlotArgs),
+    /// Compile a fuzzy system to fixed-point tables for firmware: Rust, C or TOML.
+    #[command(after_help = "Examples:\n  \
+        mmsim fis compile thesis --bits 16 -o table.rs\n  \
+        mmsim fis compile thesis --bound 0.001 -o thesis.h      C99, no library needed\n  \
+        mmsim fis compile thesis --to q15 --lang toml           the rules in fixed point, on standard output")]
+    Compile(compile::CompileArgs),
 }
 
 /// The file of a fuzzy system.
@@ -58,6 +67,7 @@ pub(super) fn fis(command: &FisCommand) -> Exit {
         FisCommand::Eval(args) => eval::eval(args),
         FisCommand::Check(args) => check::check(args),
         FisCommand::Plot(args) => plot::plot(args),
+        FisCommand::Compile(args) => compile::compile(args),
     }
 }
 

@@ -30,6 +30,9 @@ pub struct FuzzyPage {
 const WIDTH: f64 = 920.0;
 const MARGIN: f64 = 10.0;
 const TITLE_HEIGHT: f64 = 34.0;
+/// Sizes of names and of tick labels, px; more than in pictures of runs, which hold more.
+const LABEL: f64 = 16.0;
+const TICK: f64 = 14.5;
 const RESPONSE_HEIGHT: f64 = 340.0;
 
 impl FuzzyPage {

@@ -4,10 +4,11 @@ use std::io::{BufRead as _, BufWriter, Write};
 
 use clap::{Args, ValueEnum};
 use mm_control::fuzzy::{FuzzyError, Inference, Sampling};
-use mm_fis::{Accuracy, Defuzzification, Engine, Kind, System};
+use mm_fis::{Accuracy, Defuzzification, Kind, System};
 use serde_json::{Value, json};
 
 use super::super::{Exit, complain};
+use super::engines::{self, EngineError, Evaluator, Fixed, TableArgs};
 use super::file::{self, STDIN};
 use super::{FileArg, Places};
 
@@ -22,6 +23,8 @@ pub(in super::super) struct EvalArgs {
     /// How to infer.
     #[arg(long, value_enum, default_value_t = EngineKind::Exact)]
     engine: EngineKind,
+    #[command(flatten)]
+    table: TableArgs,
     /// Samples of an output set. Default: 101.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=100_000_000))]
     points: Option<u32>,
@@ -43,6 +46,10 @@ enum EngineKind {
     Exact,
     /// Output sets by samples, as MATLAB and others do it.
     Sampled,
+    /// The rules in 16-bit fixed point, as firmware evaluates them.
+    Q15,
+    /// A compiled table of one input or two, as firmware evaluates it.
+    Surface,
 }
 
 impl EvalArgs {
@@ -90,23 +97,27 @@ fn number(text: &str) -> Result<f64, String> {
 }
 
 fn run(args: &EvalArgs, system: &System, values: &[f64]) -> Result<Exit, Exit> {
-    let accuracy = accuracy(args, system);
-    let work = |engine: &Engine<'_>| {
+    let work = |evaluate: &mut Evaluator<'_>| {
         let mut session = Session::new(args, system);
-        let exit = session.all(engine, values);
+        let exit = session.all(evaluate, values);
         session.remark();
         exit
     };
-    match system.with_engine(accuracy, &work) {
-        Err(FuzzyError::Curved(_)) => {
-            complain(&format_args!(
-                "note: the output sets are curved, which have no exact centroid here: it is taken from {FINE} samples"
-            ));
-            system.with_engine(Accuracy::Sampled(Sampling::Ends(FINE)), &work)
-        }
-        other => other,
-    }
-    .unwrap_or_else(|error| {
+    let float = |accuracy| Ok(system.with_engine(accuracy, |engine| work(&mut engines::float(engine)))?);
+    let done = match args.engine {
+        EngineKind::Exact | EngineKind::Sampled => match float(accuracy(args, system)) {
+            Err(EngineError::System(FuzzyError::Curved(_))) => {
+                complain(&format_args!(
+                    "note: the output sets are curved, which have no exact centroid here: it is taken from {FINE} samples"
+                ));
+                float(Accuracy::Sampled(Sampling::Ends(FINE)))
+            }
+            other => other,
+        },
+        EngineKind::Q15 => engines::with_fixed(system, Fixed::Q15, &args.table, work),
+        EngineKind::Surface => engines::with_fixed(system, Fixed::Surface, &args.table, work),
+    };
+    done.unwrap_or_else(|error| {
         complain(&format_args!("error: {}: {error}", args.file.file));
         Err(Exit::Usage)
     })
@@ -123,8 +134,8 @@ fn accuracy(args: &EvalArgs, system: &System) -> Accuracy {
             }
             Accuracy::Sampled(args.sampling())
         }
-        EngineKind::Exact if has_samples => Accuracy::Sampled(args.sampling()),
-        EngineKind::Exact => {
+        _ if has_samples => Accuracy::Sampled(args.sampling()),
+        _ => {
             if is_set {
                 complain(&"warning: --points and --sampling matter only with `--engine sampled`");
             }
@@ -185,13 +196,10 @@ impl<'a> Session<'a> {
     }
 
     /// Evaluates the values or, without any, standard input.
-    fn all(&mut self, engine: &Engine<'_>, values: &[f64]) -> Result<Exit, Exit> {
-        let mut workspace = vec![0.0; engine.workspace_len()];
+    fn all(&mut self, evaluate: &mut Evaluator<'_>, values: &[f64]) -> Result<Exit, Exit> {
         let count = self.system.inputs.len().max(1);
         let mut each = |session: &mut Self, values: &[f64], line: Option<usize>| {
-            values
-                .chunks_exact(count)
-                .try_for_each(|inputs| session.one(engine, inputs, &mut workspace, line))
+            values.chunks_exact(count).try_for_each(|inputs| session.one(evaluate, inputs, line))
         };
         if self.is_json {
             self.write("[")?;
@@ -245,18 +253,9 @@ impl<'a> Session<'a> {
     }
 
     /// Evaluates and writes once.
-    fn one(
-        &mut self,
-        engine: &Engine<'_>,
-        inputs: &[f64],
-        workspace: &mut [f64],
-        line: Option<usize>,
-    ) -> Result<(), Exit> {
+    fn one(&mut self, evaluate: &mut Evaluator<'_>, inputs: &[f64], line: Option<usize>) -> Result<(), Exit> {
         let mut outputs = vec![0.0; self.system.outputs.len()];
-        let met = engine.infer(inputs, &mut outputs, workspace).map_err(|error| {
-            complain(&format_args!("error: {error}"));
-            Exit::Usage
-        })?;
+        let met = evaluate(inputs, &mut outputs);
         // A negative zero is zero to a reader.
         outputs.iter_mut().for_each(|output| *output += 0.0);
         self.done = self.done.saturating_add(1);

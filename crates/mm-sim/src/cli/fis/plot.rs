@@ -4,14 +4,15 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use mm_control::fuzzy::{FuzzyError, MembershipFunction, Sampling};
+use mm_control::fuzzy::{FuzzyError, MembershipFunction};
 use mm_fis::check::{Course, along};
-use mm_fis::{Accuracy, Shape, System, Variable};
+use mm_fis::{Shape, System, Variable};
 
 use super::super::{Exit, complain, print};
 use super::FileArg;
+use super::engines::{self, EngineError, Fixed, TableArgs};
 use super::file::{self, Loaded};
-use crate::figures::fuzzy::{Break, FuzzyPage, Map, Response, Sets, Term};
+use crate::figures::fuzzy::{Break, FuzzyPage, Map, Overlay, Response, Sets, Term};
 use crate::whole;
 
 /// Points of a membership function, besides those at its breakpoints.
@@ -20,6 +21,10 @@ const POINTS: u32 = 400;
 const SIDE: f64 = 1e-9;
 /// Samples of an output set in a cell of a map, where an exact centroid is not to be had.
 const SAMPLES: u32 = 401;
+
+/// Points of a curve as a fixed-point engine has it, and the part of the range from which a step between two of them is a jump.
+const CELLS_OF_OVERLAY: u32 = 8192;
+const LARGEST_STEP: f64 = 0.02;
 
 /// What `plot` takes.
 #[derive(Debug, Clone, Args)]
@@ -32,6 +37,11 @@ pub(in super::super) struct PlotArgs {
     /// Inputs to vary, counted from 1: one for curves, two for maps; the others stay in the middle. Default: the first two.
     #[arg(long, value_name = "N[,M]", value_delimiter = ',')]
     inputs: Vec<usize>,
+    /// Draw curves as a fixed-point engine has them as well.
+    #[arg(long, value_enum, value_name = "ENGINE")]
+    overlay: Option<Fixed>,
+    #[command(flatten)]
+    table: TableArgs,
 }
 
 /// Draws.
@@ -42,10 +52,19 @@ pub(super) fn plot(args: &PlotArgs) -> Exit {
 fn drawn(args: &PlotArgs) -> Result<Exit, Exit> {
     let loaded = file::load(&args.file.file)?;
     let axes = axes(args, &loaded.system)?;
-    let page = page(&loaded, &axes).map_err(|error| {
+    let refuse = |error: &dyn std::fmt::Display| {
         complain(&format_args!("error: {}: {error}", loaded.name));
         Exit::Usage
-    })?;
+    };
+    let mut page = page(&loaded, &axes).map_err(|error| refuse(&error))?;
+    match (args.overlay, axes.as_slice()) {
+        (None, _) => {}
+        (Some(engine), [axis]) => {
+            lay_over(&mut page, &loaded.system, *axis, (engine, &args.table))
+                .map_err(|error| refuse(&error))?;
+        }
+        (Some(_), _) => return Err(refuse(&"--overlay is for curves: choose one input with --inputs")),
+    }
     let svg = page.to_svg().map_err(|error| {
         complain(&format_args!("error: {error}"));
         Exit::Failed
@@ -97,13 +116,13 @@ fn page(Loaded { name, system, .. }: &Loaded, axes: &[usize]) -> Result<FuzzyPag
         responses: Vec::new(),
         maps: Vec::new(),
     };
-    match axes {
-        &[axis] => {
+    match *axes {
+        [axis] => {
             for output in 0..system.outputs.len() {
                 page.responses.extend(response(system, axis, output)?);
             }
         }
-        &[across, up] => page.maps = maps(system, (across, up))?,
+        [across, up] => page.maps = maps(system, (across, up))?,
         _ => {}
     }
     Ok(page)
@@ -122,8 +141,7 @@ fn sets(variable: &Variable, role: &str, inputs: &[String]) -> Sets {
         }
     };
     Sets {
-        title: format!("{role} {}", clean(&variable.name)),
-        name: clean(&variable.name),
+        title: format!("{role}: {}", clean(&variable.name)),
         range: variable.range,
         terms: variable.terms.iter().map(term).collect(),
     }
@@ -208,6 +226,41 @@ fn response(system: &System, axis: usize, output: usize) -> Result<Option<Respon
     }))
 }
 
+/// Draws every curve a second time, as a fixed-point engine has it.
+fn lay_over(
+    page: &mut FuzzyPage,
+    system: &System,
+    axis: usize,
+    (engine, table): (Fixed, &TableArgs),
+) -> Result<(), EngineError> {
+    let Some(input) = system.inputs.get(axis) else { return Ok(()) };
+    let (lo, hi) = input.range;
+    let name = if engine == Fixed::Q15 { "fixed-point rules" } else { "compiled surface" };
+    let mut overlays = vec![Overlay { name: name.to_owned(), parts: vec![Vec::new()] }; system.outputs.len()];
+    engines::with_fixed(system, engine, table, |evaluate| {
+        let (mut inputs, mut outputs) = (middles(system), vec![0.0; system.outputs.len()]);
+        for k in 0..=CELLS_OF_OVERLAY {
+            let x = lo + (hi - lo) * (f64::from(k) / f64::from(CELLS_OF_OVERLAY));
+            if let Some(slot) = inputs.get_mut(axis) {
+                *slot = x;
+            }
+            let _met = evaluate(&inputs, &mut outputs);
+            for ((overlay, y), output) in overlays.iter_mut().zip(&outputs).zip(&system.outputs) {
+                let largest_step = LARGEST_STEP * (output.range.1 - output.range.0);
+                let last = overlay.parts.last().and_then(|part| part.last());
+                if last.is_some_and(|[_, before]| (y - before).abs() > largest_step) {
+                    overlay.parts.push(Vec::new());
+                }
+                overlay.parts.last_mut().into_iter().for_each(|part| part.push([x, *y]));
+            }
+        }
+    })?;
+    for (response, overlay) in page.responses.iter_mut().zip(overlays) {
+        response.overlay = Some(overlay);
+    }
+    Ok(())
+}
+
 fn maps(system: &System, (across, up): (usize, usize)) -> Result<Vec<Map>, FuzzyError> {
     let (Some(x), Some(y)) = (system.inputs.get(across), system.inputs.get(up)) else {
         return Ok(Vec::new());
@@ -254,15 +307,5 @@ fn maps(system: &System, (across, up): (usize, usize)) -> Result<Vec<Map>, Fuzzy
         }
         Ok(maps)
     };
-    with_best_engine(system, fill)?
-}
-
-/// Hands an engine to `work`: the exact one or, where the output sets are curved, a finely sampled one.
-fn with_best_engine<R>(
-    system: &System,
-    work: impl FnOnce(&mm_fis::Engine<'_>) -> R,
-) -> Result<R, FuzzyError> {
-    let is_curved = matches!(system.with_engine(Accuracy::Exact, |_| ()), Err(FuzzyError::Curved(_)));
-    let accuracy = if is_curved { Accuracy::Sampled(Sampling::Ends(SAMPLES)) } else { Accuracy::Exact };
-    system.with_engine(accuracy, work)
+    system.with_engine(engines::best(system, SAMPLES), fill)?
 }

@@ -5,8 +5,8 @@ use plotters::style::RGBColor;
 use super::super::axes::{extent, ticks};
 use super::super::canvas::{Anchor, Canvas};
 use super::super::page::{FigureError, Frame};
-use super::super::style::{INK, LABEL, TICK};
-use super::shortened;
+use super::super::style::INK;
+use super::{LABEL, TICK, shortened};
 
 /// An output over two inputs.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,8 +107,9 @@ fn bar(
     }
     let mut band = 0.0;
     while band < BANDS {
-        let (from, to) = (bottom - (band + 1.0) / BANDS * side, bottom - band / BANDS * side);
-        canvas.block((left, from), (right, to), color((band + 0.5) / BANDS))?;
+        // Each a little over the one below it.
+        let (from, to) = (bottom - (band + 1.0) / BANDS * side, bottom - band / BANDS * side + 1.0);
+        canvas.block((left, from), (right, to.min(bottom)), color((band + 0.5) / BANDS))?;
         band += 1.0;
     }
     canvas.frame((left, top), (right, bottom))?;

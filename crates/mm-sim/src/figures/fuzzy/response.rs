@@ -4,8 +4,8 @@ use super::super::axes::{extent, padded, ticks};
 use super::super::canvas::{Anchor, Canvas, width_of};
 use super::super::page::{FigureError, Frame};
 use super::super::reduce::{self, Pixel};
-use super::super::style::{GRID, LABEL, Stroke, TICK};
-use super::{COLORS, shortened};
+use super::super::style::{GRID, Stroke};
+use super::{COLORS, LABEL, TICK, shortened};
 
 /// An output over one input.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,6 +81,8 @@ pub(super) fn draw(canvas: &Canvas<'_>, frame: Frame, response: &Response) -> Re
     if let Some(overlay) = &response.overlay {
         for part in &overlay.parts {
             let points: Vec<Pixel> = part.iter().map(|[x, y]| pixel(*x, *y)).collect();
+            let kept = reduce::path(&points);
+            let points: Vec<Pixel> = kept.iter().filter_map(|&at| points.get(at).copied()).collect();
             canvas.line(&points, Stroke { color: second, width: 1.4, dash: Some((5.0, 4.0)) })?;
         }
         legend(canvas, (right, frame.top + 0.5 * ABOVE), &overlay.name, second)?;

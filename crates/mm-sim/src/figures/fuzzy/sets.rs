@@ -4,16 +4,14 @@ use super::super::axes::ticks;
 use super::super::canvas::{Anchor, Canvas, width_of};
 use super::super::page::{FigureError, Frame};
 use super::super::reduce::Pixel;
-use super::super::style::{GRID, LABEL, Stroke, TICK};
-use super::{COLORS, shortened};
+use super::super::style::{GRID, Stroke};
+use super::{COLORS, LABEL, TICK, shortened};
 
 /// A variable and its terms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sets {
     /// Title of the panel.
     pub title: String,
-    /// Name of the variable.
-    pub name: String,
     /// Its range.
     pub range: (f64, f64),
     /// Its terms.
@@ -35,10 +33,10 @@ const LEFT: f64 = 52.0;
 const RIGHT: f64 = 16.0;
 const TITLE_HEIGHT: f64 = 26.0;
 const PLOT: f64 = 130.0;
-const BELOW: f64 = 44.0;
+const BELOW: f64 = 28.0;
 /// Height of a row of names, and of a line of words.
-const ROW: f64 = 19.0;
-const WORDS: f64 = 20.0;
+const ROW: f64 = 21.0;
+const WORDS: f64 = 21.0;
 /// Room between two names in a row.
 const BETWEEN: f64 = 9.0;
 
@@ -49,7 +47,7 @@ impl Sets {
         let rows = self.names(0.0, width).1;
         let plot =
             if words == self.terms.len() && words > 0 { 0.0 } else { PLOT + BELOW + count(rows) * ROW };
-        TITLE_HEIGHT + plot + count(words) * WORDS + 12.0
+        TITLE_HEIGHT + plot + count(words) * WORDS + 14.0
     }
 
     /// The range that is drawn: the variable's, and the numbers outside of it.
@@ -133,8 +131,10 @@ pub(super) fn draw(canvas: &Canvas<'_>, frame: Frame, sets: &Sets) -> Result<(),
         let stroke = Stroke { color, width: 2.0, dash };
         match term {
             Term::Set(_, _, points) => {
-                let points: Vec<Pixel> = points.iter().map(|[x, degree]| pixel(*x, *degree)).collect();
-                canvas.line(&points, stroke)?;
+                for part in above_zero(points) {
+                    let points: Vec<Pixel> = part.iter().map(|[x, degree]| pixel(*x, *degree)).collect();
+                    canvas.line(&points, stroke)?;
+                }
             }
             Term::Number(_, value) => {
                 canvas.line(&[pixel(*value, 0.0), pixel(*value, 1.0)], stroke)?;
@@ -147,12 +147,12 @@ pub(super) fn draw(canvas: &Canvas<'_>, frame: Frame, sets: &Sets) -> Result<(),
             }
         }
         if let (Term::Set(name, ..) | Term::Number(name, _), Some((middle, row))) = (term, place) {
-            let y = top - 12.0 - count(*row) * ROW;
+            let y = top - 13.0 - count(*row) * ROW;
             let name = label(name);
             let half = 0.5 * width_of(&name, LABEL);
             canvas.text((*middle, y), &name, LABEL, Anchor::Middle)?;
             canvas.line(
-                &[(middle - half, y + 8.5), (middle + half, y + 8.5)],
+                &[(middle - half, y + 9.5), (middle + half, y + 9.5)],
                 Stroke { dash: None, ..stroke },
             )?;
         }
@@ -178,7 +178,19 @@ fn axes(
         canvas.hair((left, at), (right, at), GRID)?;
         canvas.text((left - 6.0, at), text, TICK, Anchor::End)?;
     }
-    canvas.frame((left, top), (right, bottom))?;
-    let name = shortened(&sets.name, right - left, LABEL);
-    canvas.text((0.5 * (left + right), bottom + 28.0), &name, LABEL, Anchor::Middle)
+    canvas.frame((left, top), (right, bottom))
+}
+
+/// The parts of a curve that are not at zero, so that a term does not hide the others where it does not hold.
+fn above_zero(points: &[[f64; 2]]) -> Vec<&[[f64; 2]]> {
+    let is_zero = |at: usize| points.get(at).is_some_and(|[_, degree]| *degree <= 5e-4);
+    let mut parts = Vec::new();
+    let mut begin = 0;
+    for at in 1..=points.len() {
+        if at == points.len() || (is_zero(at - 1) && is_zero(at)) {
+            parts.extend(points.get(begin..at).filter(|part| part.len() > 1));
+            begin = at;
+        }
+    }
+    parts
 }

@@ -1,0 +1,216 @@
+//! The engines that a system can be evaluated with: in floating point, in fixed point, and from a compiled table.
+
+use clap::{Args, ValueEnum};
+use mm_control::fuzzy::fixed::{self, Evaluate as _};
+use mm_control::fuzzy::{FuzzyError, Inference, Sampling};
+use mm_fis::compile::{CompileError, CompiledSurface, CompiledSurface2, Q15, Request};
+use mm_fis::{Accuracy, Engine, System};
+
+/// Samples of an output set where an exact centroid is not to be had: for a table of one input, and of two.
+const SAMPLES_OF_ONE: u32 = 2001;
+const SAMPLES_OF_TWO: u32 = 401;
+
+/// What a compiled table is to be.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct TableArgs {
+    /// Bits of a knot of a compiled surface, 8 to 16.
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(8..=16))]
+    pub(super) bits: u32,
+    /// Largest error of a compiled surface, in output units. Default: 2^-10 of half the output's range.
+    #[arg(long, value_name = "ERROR", value_parser = bound, allow_negative_numbers = true)]
+    pub(super) bound: Option<f64>,
+    /// Bits to which each of two inputs of a compiled surface is rounded, 8 to 12.
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(8..=12))]
+    pub(super) input_bits: u32,
+    /// Most knots of a compiled surface.
+    #[arg(long, value_name = "N", default_value_t = 16_384)]
+    pub(super) max_knots: usize,
+}
+
+fn bound(text: &str) -> Result<f64, String> {
+    let bound: f64 = text.parse().map_err(|_| "expected a number".to_owned())?;
+    if bound > 0.0 && bound.is_finite() { Ok(bound) } else { Err("expected a number above 0".to_owned()) }
+}
+
+impl TableArgs {
+    /// The same for the compiler.
+    pub(super) const fn request(&self) -> Request {
+        Request { bound: self.bound, bits: self.bits, input_bits: self.input_bits, max_knots: self.max_knots }
+    }
+}
+
+/// A fixed-point engine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Fixed {
+    /// The rules in fixed point.
+    Q15,
+    /// A compiled table.
+    Surface,
+}
+
+/// Why there is no such engine for a system.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum EngineError {
+    /// The system is refused.
+    #[error(transparent)]
+    System(#[from] FuzzyError),
+    /// It cannot be compiled.
+    #[error("{0}{hint}", hint = hint(.0))]
+    Compile(#[from] CompileError),
+    /// A table has one input or two.
+    #[error("a compiled surface has one input or two, this system has {0}")]
+    Inputs(usize),
+}
+
+/// What to ask for instead, where a bound is out of reach.
+fn hint(error: &CompileError) -> String {
+    match error {
+        CompileError::Bound { reachable, .. } => {
+            format!(
+                "; ask for less (--bound {:.1e}), or allow more (--max-knots, --input-bits)",
+                1.06 * reachable
+            )
+        }
+        _ => String::new(),
+    }
+}
+
+/// Something that evaluates all outputs, and says what it met.
+pub(super) type Evaluator<'a> = dyn FnMut(&[f64], &mut [f64]) -> Inference + 'a;
+
+/// An evaluator of a floating-point engine.
+pub(super) fn float<'a>(engine: &'a Engine<'a>) -> impl FnMut(&[f64], &mut [f64]) -> Inference + 'a {
+    let mut workspace = vec![0.0; engine.workspace_len()];
+    // The lengths are those of the system, so that nothing is refused.
+    move |inputs, outputs| engine.infer(inputs, outputs, &mut workspace).unwrap_or_default()
+}
+
+/// How the outputs of a system are best known: exactly or, where the output sets are curved, by this many samples.
+pub(super) fn best(system: &System, samples: u32) -> Accuracy {
+    let is_curved = matches!(system.with_engine(Accuracy::Exact, |_| ()), Err(FuzzyError::Curved(_)));
+    if is_curved { Accuracy::Sampled(Sampling::Ends(samples)) } else { Accuracy::Exact }
+}
+
+/// Hands an evaluator in fixed point to `work`; what it meets is what a floating-point engine meets.
+pub(super) fn with_fixed<R>(
+    system: &System,
+    kind: Fixed,
+    table: &TableArgs,
+    work: impl FnOnce(&mut Evaluator<'_>) -> R,
+) -> Result<R, EngineError> {
+    match kind {
+        Fixed::Q15 => with_q15(system, &Q15::compile(system)?, work),
+        Fixed::Surface => {
+            let tables = (0..system.outputs.len())
+                .map(|output| Table::compile(system, output, &table.request()))
+                .collect::<Result<Vec<_>, _>>()?;
+            with_tables(system, &tables, work)
+        }
+    }
+}
+
+/// The 16-bit number nearest to a value in a range.
+#[expect(clippy::cast_possible_truncation, reason = "clamped; not a number is caught before")]
+fn quantized((lo, hi): (f64, f64), x: f64) -> i16 {
+    let (middle, half) = (0.5 * lo + 0.5 * hi, 0.5 * hi - 0.5 * lo);
+    ((x - middle) / half * 32768.0).round().clamp(-32768.0, 32767.0) as i16
+}
+
+/// What a 16-bit number stands for in a range.
+fn value_of((lo, hi): (f64, f64), q: i16) -> f64 {
+    let (middle, half) = (0.5 * lo + 0.5 * hi, 0.5 * hi - 0.5 * lo);
+    middle + half * (f64::from(q) / 32768.0)
+}
+
+/// Evaluates in fixed point between what a floating-point engine says to the inputs.
+fn with_float<R>(
+    system: &System,
+    mut evaluate: impl FnMut(&[i16], &mut [f64]),
+    work: impl FnOnce(&mut Evaluator<'_>) -> R,
+) -> Result<R, EngineError> {
+    let ranges: Vec<(f64, f64)> = system.inputs.iter().map(|input| input.range).collect();
+    Ok(system.with_engine(best(system, 101), |engine| {
+        let mut float = float(engine);
+        work(&mut |inputs, outputs| {
+            let met = float(inputs, outputs);
+            if !met.nan {
+                let fixed: Vec<i16> =
+                    ranges.iter().zip(inputs).map(|(range, x)| quantized(*range, *x)).collect();
+                evaluate(&fixed, outputs);
+            }
+            met
+        })
+    })?)
+}
+
+fn with_q15<R>(
+    system: &System,
+    rules: &Q15,
+    work: impl FnOnce(&mut Evaluator<'_>) -> R,
+) -> Result<R, EngineError> {
+    rules.with_tables(|tables| {
+        let engine = fixed::Engine::try_new(tables)?;
+        let mut workspace = vec![0; engine.workspace_len()];
+        let mut found = vec![0; rules.output_ranges.len()];
+        let evaluate = |inputs: &[i16], outputs: &mut [f64]| {
+            // The lengths are those of the system, so that nothing is refused.
+            let _met = engine.infer(inputs, &mut found, &mut workspace);
+            for (output, (range, q)) in outputs.iter_mut().zip(rules.output_ranges.iter().zip(&found)) {
+                *output = value_of(*range, *q);
+            }
+        };
+        with_float(system, evaluate, work)
+    })
+}
+
+fn with_tables<R>(
+    system: &System,
+    tables: &[Table],
+    work: impl FnOnce(&mut Evaluator<'_>) -> R,
+) -> Result<R, EngineError> {
+    let evaluate = |inputs: &[i16], outputs: &mut [f64]| {
+        for (output, table) in outputs.iter_mut().zip(tables) {
+            *output = table.evaluate(inputs);
+        }
+    };
+    with_float(system, evaluate, work)
+}
+
+/// A compiled surface of one input or of two.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Table {
+    One(CompiledSurface),
+    Two(CompiledSurface2),
+}
+
+impl Table {
+    /// Compiles an output of a system.
+    pub(super) fn compile(system: &System, output: usize, request: &Request) -> Result<Self, EngineError> {
+        let range = system.outputs.get(output).ok_or(FuzzyError::OutOfRange("outputs"))?.range;
+        let name = &system.name;
+        match system.inputs.as_slice() {
+            [input] => system.with_function(best(system, SAMPLES_OF_ONE), output, |f| {
+                let f = |x: f64| f(&[x]);
+                Ok(Self::One(CompiledSurface::compile(name, &f, (input.range, range), request)?))
+            })?,
+            [first, second] => system.with_function(best(system, SAMPLES_OF_TWO), output, |f| {
+                let ranges = ([first.range, second.range], range);
+                Ok(Self::Two(CompiledSurface2::compile(name, f, ranges, request)?))
+            })?,
+            inputs => Err(EngineError::Inputs(inputs.len())),
+        }
+    }
+
+    /// Whether the system had to be sampled for it.
+    pub(super) fn is_sampled(system: &System) -> bool {
+        best(system, SAMPLES_OF_ONE) != Accuracy::Exact
+    }
+
+    fn evaluate(&self, inputs: &[i16]) -> f64 {
+        match (self, inputs) {
+            (Self::One(table), [x]) => value_of(table.output_range, table.surface().evaluate(*x)),
+            (Self::Two(table), [x, y]) => value_of(table.output_range, table.surface().evaluate(*x, *y)),
+            _ => 0.0,
+        }
+    }
+}
