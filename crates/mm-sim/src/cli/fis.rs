@@ -71,6 +71,11 @@ pub(super) fn fis(command: &FisCommand) -> Exit {
     }
 }
 
+/// `1 input`, `2 inputs`.
+fn counted(count: usize, one: &str) -> String {
+    if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
+}
+
 /// Lets negative numbers pass as values: those after `fis eval` get a blank in front, which nothing takes for an option.
 ///
 /// The parser of the command line knows `-1.4`, but neither `-.5` nor `-1e-3` nor `-inf`.

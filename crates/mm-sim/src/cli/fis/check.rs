@@ -8,8 +8,8 @@ use mm_fis::{Kind, System};
 use serde_json::{Map, Value, json};
 
 use super::super::{Exit, complain, print};
-use super::FileArg;
 use super::file::{self, Loaded};
+use super::{FileArg, counted};
 
 /// What `check` takes.
 #[derive(Debug, Clone, Args)]
@@ -44,11 +44,6 @@ pub(super) fn check(args: &CheckArgs) -> Exit {
     };
     let is_flawed = args.strict && report.count(Severity::Warning) > 0;
     shown.max(if is_flawed { Exit::Failed } else { Exit::Done })
-}
-
-/// `1 input`, `2 inputs`.
-fn counted(count: usize, one: &str) -> String {
-    if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
 }
 
 const fn kind(system: &System) -> &'static str {

@@ -9,9 +9,9 @@ use mm_fis::System;
 use mm_fis::compile::{CompiledSurface, CompiledSurface2, Origin, Q15};
 
 use super::super::{Exit, complain, print};
-use super::FileArg;
 use super::engines::{self, Evaluator, Fixed, Table, TableArgs};
 use super::file::{self, Loaded, STDIN};
+use super::{FileArg, counted};
 use crate::{shell, whole};
 
 /// Inputs at which a rule engine of one input is compared: all there are.
@@ -272,10 +272,10 @@ fn rounded(at: f64, (lo, hi): (f64, f64)) -> f64 {
 /// Rules and terms, and the error against the exact engine: as the file says, and with the breakpoints as stored.
 fn report_of_rules(system: &System, table: &TableArgs) -> String {
     let mut out = format!(
-        "rules in fixed point: {} inputs, {} outputs, {} rules\n",
-        system.inputs.len(),
-        system.outputs.len(),
-        system.rules.len()
+        "rules in fixed point: {}, {}, {}\n",
+        counted(system.inputs.len(), "input"),
+        counted(system.outputs.len(), "output"),
+        counted(system.rules.len(), "rule")
     );
     let stored = system.as_stored();
     let errors = engines::with_fixed(system, Fixed::Q15, table, |fixed| {
