@@ -113,7 +113,7 @@ fn lint() -> Result<()> {
     let mut host = firmware_cargo(&["clippy", "--lib", "--examples"])?;
     run_command(host.args(["--locked", "--", "-D", "warnings"]))?;
     if Compiler::find(false)?.has_clippy() {
-        let mut target = firmware_cargo(&["clippy", "--bins", "--target", MACHINES[0].target])?;
+        let mut target = firmware_cargo(&["clippy", "--release", "--bins", "--target", MACHINES[0].target])?;
         run_command(target.args(["--locked", "--", "-D", "warnings"]))?;
     }
     Ok(())
