@@ -226,7 +226,7 @@ fn the_digest_is_that_of_the_trajectory_alone() {
         assert_eq!(other.metrics.itae_m_s2, base.metrics.itae_m_s2, "nor the metrics, at {rate} Hz");
     }
     assert_eq!(of(&[short, "simulation.seed=7"]).digest, base.digest, "no noise, no seed");
-    // The last bit of one number of the robot, of a gain, of the plant.
+    // The last bits of one number of the robot, of a gain, of the plant; a single one may be lost where numbers are added.
     for (key, value) in [
         ("robot.base_mass_kg", 50.0_f64),
         ("controller.outer.position_gain_1_s", 18.0),
@@ -235,8 +235,8 @@ fn the_digest_is_that_of_the_trajectory_alone() {
     ] {
         let same = of(&[short, &format!("{key}={value:?}")]);
         assert_eq!(same.digest, base.digest, "{key} = {value} is what it was before");
-        let other = of(&[short, &format!("{key}={:?}", value.next_up())]);
-        assert_ne!(other.digest, base.digest, "{key} one bit off");
+        let other = of(&[short, &format!("{key}={:?}", value * (1.0 + 8.0 * f64::EPSILON))]);
+        assert_ne!(other.digest, base.digest, "{key} a few bits off");
     }
 }
 

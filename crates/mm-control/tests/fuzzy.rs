@@ -364,10 +364,58 @@ fn surface_stays_close_to_its_engine() {
     assert!((bound - 1.7277).abs() < 1e-4, "slope bound {bound}");
     assert!(worst < 2e-3, "65 knots are off by {worst:e}");
     assert_eq!(surface.evaluate(0.0), 0.0, "zero at zero");
-    assert_eq!(surface.evaluate(f64::NAN), 0.0, "NaN gives zero");
+    assert_eq!(surface.evaluate(f64::NAN), 0.0, "NaN gives the middle of the output's range");
     assert_eq!(surface.evaluate(f64::INFINITY), surface.evaluate(1.0), "clamped above");
     assert_eq!(surface.max_output(), engine.evaluate(-1.0), "largest output at the end");
     assert_eq!(surface.min_output(), engine.evaluate(1.0), "smallest output at the end");
+}
+
+#[test]
+fn a_mirrored_system_of_many_terms_is_odd_to_rounding() {
+    // Five wide terms, all of which fire at once.
+    let triangle = |b: f64| MembershipFunction::Triangle([b - 1.5, b, b + 1.5]);
+    let (inputs, outputs) =
+        ([-1.0, -0.5, 0.0, 0.5, 1.0].map(triangle), [1.0, 0.5, 0.0, -0.5, -1.0].map(triangle));
+    let indices: [[i16; 1]; 5] = [[1], [2], [3], [4], [5]];
+    let rules =
+        indices.each_ref().map(|i| Rule { inputs: i, outputs: i, weight: 1.0, connective: Connective::And });
+    for aggregation in [Aggregation::Max, Aggregation::Sum] {
+        let tables = MamdaniTables {
+            inputs: &[Variable { range: (-1.0, 1.0), terms: &inputs }],
+            outputs: &[Variable { range: (-2.5, 2.5), terms: &outputs }],
+            rules: &rules,
+            operators: Operators { aggregation, ..Operators::default() },
+            defuzzifier: Defuzzifier::Centroid,
+        };
+        let curve = Curve::<f64>::try_new(&tables).unwrap();
+        for k in -500_i16..=500 {
+            let x = f64::from(k) / 500.0;
+            let sum = curve.evaluate(x) + curve.evaluate(-x);
+            assert!(sum.abs() <= 4.0 * f64::EPSILON, "{aggregation:?} at {x}: {sum:e}");
+        }
+    }
+}
+
+#[test]
+fn samples_far_from_zero_keep_their_digits() {
+    let terms = [MembershipFunction::Triangle([1e6_f32, 1_000_010.0, 1_000_010.0])];
+    let rules = [Rule { inputs: &[1], outputs: &[1], weight: 1.0, connective: Connective::And }];
+    let inputs = [Variable { range: (0.0, 1.0), terms: &[MembershipFunction::LinearS([0.0, 0.1])] }];
+    let at = |range, terms, defuzzifier| {
+        let outputs = [Variable { range, terms }];
+        let operators = Operators::default();
+        let tables =
+            MamdaniTables { inputs: &inputs, outputs: &outputs, rules: &rules, operators, defuzzifier };
+        Curve::<f32>::try_new(&tables).unwrap().evaluate(0.5)
+    };
+    for points in [101, 1001] {
+        let y = at((1e6, 1_000_010.0), &terms, Defuzzifier::SampledCentroid(Sampling::Ends(points)));
+        // Two thirds of the way up; a unit in the last place is 0.06 there, and the samples themselves are rounded to it.
+        assert!((y - 1_000_006.7).abs() < 0.3, "{points} samples: {y}");
+    }
+    let wide = [MembershipFunction::LinearS([0.0, 1.0])];
+    let y = at((0.0, 3e38), &wide, Defuzzifier::MeanOfMaximum(Sampling::Ends(101)));
+    assert!((1.4e38..1.7e38).contains(&y), "mean of the maximum over the largest numbers: {y}");
 }
 
 /// A system whose table can be worked out by hand.
@@ -375,7 +423,7 @@ struct Parabola;
 
 impl FuzzySystem<f64> for Parabola {
     fn evaluate(&self, x: f64) -> f64 {
-        x * x
+        if x.is_nan() { 7.0 } else { x * x }
     }
     fn input_range(&self) -> (f64, f64) {
         (1.0, 3.0)
@@ -389,6 +437,7 @@ fn surface_by_hand() {
     assert_eq!(surface.knots(), &[1.0, 4.0, 9.0], "squares of 1, 2, 3");
     assert_eq!((surface.evaluate(1.5), surface.evaluate(2.5)), (2.5, 6.5), "half way");
     assert_eq!((surface.evaluate(0.0), surface.evaluate(9.0)), (1.0, 9.0), "clamped");
+    assert_eq!(surface.evaluate(f64::NAN), 7.0, "what the system gives for NaN");
     assert_eq!(surface.slope_bound(), 5.0, "from 4 to 9");
     assert_eq!((surface.min_output(), surface.max_output()), (1.0, 9.0), "bounds");
 }
@@ -420,7 +469,19 @@ proptest! {
             operators: Operators::default(),
             defuzzifier: Defuzzifier::Centroid,
         };
-        let y = Curve::<f32>::try_new(&tables).unwrap().evaluate(x);
-        prop_assert!(y >= -scale && y <= 1.5 * scale, "f({x}) = {y}");
+        let sampled = MamdaniTables { defuzzifier: Defuzzifier::SampledCentroid(Sampling::Ends(11)), ..tables };
+        let moderate = (1e-20..1e6).contains(&(scale * scale));
+        match Curve::<f32>::try_new(&tables) {
+            Ok(curve) => {
+                let y = curve.evaluate(x);
+                prop_assert!(y >= -scale && y <= 1.5 * scale, "f({x}) = {y}");
+            }
+            Err(error) => {
+                prop_assert_eq!(error, FuzzyError::OutOfRange("outputs.range"));
+                prop_assert!(!moderate, "a range of {scale} is refused");
+            }
+        }
+        let y = Curve::<f32>::try_new(&sampled).unwrap().evaluate(x);
+        prop_assert!(y >= -scale && y <= 1.5 * scale, "sampled, f({x}) = {y}");
     }
 }

@@ -19,7 +19,7 @@ use mm_model::Real;
 /// Convention: every case has a defined result and none is NaN. An input outside its range counts as the nearer end;
 /// where no rule fires, or what fires has no area, and for a NaN input, an output is the middle of its range;
 /// [`Inference`] says which of it happened. With the exact centroid, a rule base that is its own mirror image gives an
-/// exactly odd map, and exactly 0 at 0.
+/// odd map: exactly while at most two output terms fire at once, to rounding beyond that.
 ///
 /// Cost: one degree a term, one pass over the rules and one over the firing output terms; the caller's workspace holds
 /// [`workspace_len`](Self::workspace_len) numbers, nothing is allocated. `cargo xtask bench-instructions` counts it.
@@ -85,7 +85,7 @@ impl<'a, T: Real> Mamdani<'a, T> {
     /// Naming the field of [`MamdaniTables`] or of its parts: [`FuzzyError::Empty`] without variables, terms or rules,
     /// [`FuzzyError::NonFinite`] numbers, [`FuzzyError::Inverted`] ranges or breakpoints, [`FuzzyError::Length`] for a rule
     /// with another number of variables, [`FuzzyError::OutOfRange`] for the index of a term that does not exist, a weight
-    /// outside [0, 1], a width of 0 or fewer than 2 samples, and [`FuzzyError::Curved`] where the exact centroid is asked of a curved
+    /// outside [0, 1], a width of 0, fewer than 2 samples, or an output range whose square no longer fits the numbers (exact centroid), and [`FuzzyError::Curved`] where the exact centroid is asked of a curved
     /// output term or of the probabilistic sum.
     pub fn try_new(tables: &'a MamdaniTables<'a, T>) -> Result<Self, FuzzyError> {
         let MamdaniTables { inputs, outputs, rules, operators, defuzzifier } = tables;
@@ -110,6 +110,15 @@ impl<'a, T: Real> Mamdani<'a, T> {
                 };
                 if !outputs.iter().all(straight) {
                     return Err(FuzzyError::Curved("outputs.terms"));
+                }
+                // Moments are of the order of the square of the range, and what is subtracted from them a rounding error of it.
+                let moderate = |output: &Variable<'_, T>| {
+                    let (lo, hi) = output.range;
+                    let square = (hi - lo) * (hi - lo);
+                    (square * T::from_u32(16)).is_finite() && square * T::EPSILON * T::EPSILON > T::ZERO
+                };
+                if !outputs.iter().all(moderate) {
+                    return Err(FuzzyError::OutOfRange("outputs.range"));
                 }
             }
             Defuzzifier::SampledCentroid(sampling)

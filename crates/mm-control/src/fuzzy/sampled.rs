@@ -38,12 +38,13 @@ impl<T: Real> Points<T> {
     }
 }
 
-/// The output by samples, or `None` where nothing fired or the set is zero at every sample.
+/// The output by samples, within the range, or `None` where nothing fired or the set is zero at every sample.
 ///
 /// Cost: the number of samples times the number of terms that fired; twice that for the bisector.
 pub(super) fn defuzzify<T: Real>(set: &OutputSet<'_, T>, defuzzifier: Defuzzifier) -> Option<T> {
-    let points = |sampling| Points::new(set.variable.range, sampling);
-    match defuzzifier {
+    let (lo, hi) = set.variable.range;
+    let points = |sampling| Points::new((lo, hi), sampling);
+    let output = match defuzzifier {
         Defuzzifier::Centroid => None,
         Defuzzifier::SampledCentroid(sampling) => centroid(set, points(sampling)),
         Defuzzifier::Bisector(sampling) => bisector(set, points(sampling)),
@@ -54,18 +55,20 @@ pub(super) fn defuzzify<T: Real>(set: &OutputSet<'_, T>, defuzzifier: Defuzzifie
         Defuzzifier::LargestOfMaximum(sampling) => {
             extreme_of_maximum(set, points(sampling), |new, old| new > old)
         }
-    }
+    };
+    output.filter(|y| y.is_finite()).map(|y| y.clamp_to(lo, hi))
 }
 
-/// Measured from the middle of the range, so that a mirrored set gives the opposite centroid up to the order of summation.
+/// Measured from the middle of the range: where that lies takes no digits away.
 fn centroid<T: Real>(set: &OutputSet<'_, T>, points: Points<T>) -> Option<T> {
+    let middle = T::HALF * points.first + T::HALF * points.last;
     let (mut area, mut moment) = (T::ZERO, T::ZERO);
     for y in points.iter() {
         let m = set.degree(y);
         area += m;
-        moment += m * y;
+        moment += m * (y - middle);
     }
-    (area > T::ZERO).then(|| moment / area).filter(|y| y.is_finite())
+    (area > T::ZERO).then(|| middle + moment / area)
 }
 
 fn bisector<T: Real>(set: &OutputSet<'_, T>, points: Points<T>) -> Option<T> {
@@ -81,17 +84,18 @@ fn bisector<T: Real>(set: &OutputSet<'_, T>, points: Points<T>) -> Option<T> {
 }
 
 fn mean_of_maximum<T: Real>(set: &OutputSet<'_, T>, points: Points<T>) -> Option<T> {
+    let middle = T::HALF * points.first + T::HALF * points.last;
     let (mut most, mut sum, mut count) = (T::ZERO, T::ZERO, T::ZERO);
     for y in points.iter() {
         let m = set.degree(y);
         if m > most {
-            (most, sum, count) = (m, y, T::ONE);
+            (most, sum, count) = (m, y - middle, T::ONE);
         } else if m >= most {
-            sum += y;
+            sum += y - middle;
             count += T::ONE;
         }
     }
-    (most > T::ZERO).then(|| sum / count)
+    (most > T::ZERO).then(|| middle + sum / count)
 }
 
 fn extreme_of_maximum<T: Real>(

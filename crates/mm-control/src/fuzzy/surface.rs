@@ -10,7 +10,7 @@ use mm_model::Real;
 ///
 /// Convention: `KNOTS` is odd, so that one knot lies in the middle of the range and counting starts there: a
 /// table of an odd map is exactly odd, and exactly 0 in the middle. Outside the range the knot at the end
-/// holds; a NaN gives 0.
+/// holds; a NaN gives what the system gives for it.
 ///
 /// Cost: one multiplication into the table, two loads, one interpolation; `KNOTS + 5` numbers of memory.
 ///
@@ -33,6 +33,7 @@ pub struct Surface<T, const KNOTS: usize> {
     per_step: T,
     /// Distance from the middle to either end, in steps.
     reach: T,
+    at_nan: T,
 }
 
 impl<T: Real, const KNOTS: usize> Surface<T, KNOTS> {
@@ -68,7 +69,11 @@ impl<T: Real, const KNOTS: usize> Surface<T, KNOTS> {
             }
             steps_from_middle += T::ONE;
         }
-        Ok(Self { knots, lo, hi, middle, per_step: reach / half, reach })
+        let at_nan = engine.evaluate(T::from_f64(f64::NAN));
+        if !at_nan.is_finite() {
+            return Err(FuzzyError::NonFinite("engine"));
+        }
+        Ok(Self { knots, lo, hi, middle, per_step: reach / half, reach, at_nan })
     }
 
     /// The knots from the lower to the upper end of the input range.
@@ -111,7 +116,7 @@ impl<T: Real, const KNOTS: usize> FuzzySystem<T> for Surface<T, KNOTS> {
         } else if u < T::ZERO {
             (Self::CENTRE.wrapping_sub(i), Self::CENTRE.wrapping_sub(i).wrapping_sub(1))
         } else {
-            return T::ZERO;
+            return self.at_nan;
         };
         match (self.knots.get(near), self.knots.get(far)) {
             (Some(&from), Some(&to)) => from + fraction * (to - from),

@@ -15,7 +15,7 @@ pub struct Variable<'a, T> {
 /// An output of a Sugeno system.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SugenoVariable<'a, T> {
-    /// Lower and upper end; only its middle matters, the output where no rule fires.
+    /// Lower and upper end; only its middle matters, the weighted average where no rule fires.
     pub range: (T, T),
     /// The consequents; rules count them from 1.
     pub terms: &'a [Consequent<'a, T>],
@@ -193,7 +193,7 @@ pub struct Inference {
     pub clamped: bool,
     /// Some input was NaN: every output is the middle of its range.
     pub nan: bool,
-    /// For some output no rule fired, or what fired has no area: it is the middle of its range.
+    /// For some output no rule fired, or what fired has no area: it is the middle of its range (a weighted sum: 0).
     pub unfired: bool,
 }
 

@@ -16,7 +16,7 @@ const KNOTS: usize = 65;
 /// | `Table` | linear between 65 equally spaced knots; a jump becomes a slope | 70 numbers | fastest in floating point |
 /// | `Rules` | exact | the tables, in flash | a few hundred instructions |
 /// | `Q15` | 16 bits: two units of 2^-15 of half the range beyond the rounding of input and breakpoints | the tables, in flash | as `Rules`, without floating point |
-/// | `Surface` | the bound it was compiled for; a jump stays one | the knots, in flash | fastest without floating point |
+/// | `Surface` | the bound it was compiled for, beyond the rounding of the input; a jump stays one | the knots, in flash | fastest without floating point |
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum FuzzyTerm<T: 'static> {
@@ -25,7 +25,7 @@ pub enum FuzzyTerm<T: 'static> {
     /// The rules themselves.
     Rules(Curve<'static, T, 32>),
     /// The rules in whole numbers.
-    Q15(Scaled<T, fixed::Curve<'static, 16>>),
+    Q15(Scaled<T, fixed::Curve<'static, 32>>),
     /// A compiled table of whole numbers.
     Surface(Scaled<T, Surface1<'static>>),
 }

@@ -7,7 +7,7 @@ use mm_control::fuzzy::FuzzyError;
 #[non_exhaustive]
 pub enum CompileError {
     /// The rule engine in fixed point has no place for a part of the system; a surface has.
-    #[error("the Q15 engine cannot take {part}: {reason}; a compiled surface can")]
+    #[error("the Q15 engine cannot take {part}: {reason}; a compiled surface of one or two inputs can")]
     Unsupported {
         /// The part, with its name.
         part: String,

@@ -5,7 +5,7 @@ use super::CompileError;
 /// What a surface is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
-    /// Largest error, in output units; `None` for 2^-10 of half the output's range.
+    /// Largest error, in output units; `None` for 2^-10 of half the output's range with one input, 2^-8 with two.
     pub bound: Option<f64>,
     /// Bits of a knot, 8 to 16: knots are multiples of 2^(16 - bits) units.
     pub bits: u32,
@@ -16,7 +16,7 @@ pub struct Request {
 }
 
 impl Default for Request {
-    /// 2^-10 of half the range, knots of 16 bits, two inputs of 10 bits, 16,384 knots.
+    /// The bound by the number of inputs, knots of 16 bits, two inputs of 10 bits, 16,384 knots.
     fn default() -> Self {
         Self { bound: None, bits: 16, input_bits: 10, max_knots: 16_384 }
     }

@@ -58,12 +58,6 @@ impl CompiledSurface {
         2 * self.knots.len() + 12 * self.sections.len()
     }
 
-    /// What one step of a knot is worth, in output units: half of it is lost by rounding.
-    #[must_use]
-    pub fn resolution(&self) -> f64 {
-        Scale::of(self.output_range).difference(f64::from(1 << (16 - self.bits)))
-    }
-
     /// Compiles a function of one number over a range.
     ///
     /// The error is checked at every one of the 65,536 inputs while the knots are chosen: the bound holds by construction. Of all tables with knots at

@@ -53,12 +53,6 @@ impl CompiledSurface2 {
         2 * self.knots.len() + 24
     }
 
-    /// What one step of a knot is worth, in output units: half of it is lost by rounding.
-    #[must_use]
-    pub fn resolution(&self) -> f64 {
-        Scale::of(self.output_range).difference(f64::from(1 << (16 - self.bits)))
-    }
-
     /// Compiles a function of two numbers over their ranges.
     ///
     /// Inputs are rounded to `input_bits` bits, so that there are (2^bits + 1)^2 points; the finished table is checked at each of them: the bound
@@ -82,7 +76,7 @@ impl CompiledSurface2 {
         check_range("second input range", input_ranges[1])?;
         check_range("output range", output_range)?;
         let lattice = Lattice::of(f, input_ranges, output_range, request.input_bits)?;
-        let bound = request.bound.unwrap_or_else(|| lattice.output.difference(32.0));
+        let bound = request.bound.unwrap_or_else(|| lattice.output.difference(128.0));
         let steps = lattice.output.difference_in_steps(bound) * (1.0 + 1e-12);
         let mut best: Option<Fitted> = None;
         for shifts in lattice.shifts(request.max_knots) {

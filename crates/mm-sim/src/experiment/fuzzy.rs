@@ -1,7 +1,6 @@
 //! The fuzzy system of a scenario's law.
 
 use std::borrow::Cow;
-use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
@@ -9,7 +8,7 @@ use mm_control::LawKind;
 use mm_control::fuzzy::{FuzzyError, FuzzySystem, Sampling};
 use mm_control::laws::FuzzyTerm;
 use mm_fis::compile::{CompileError, CompiledSurface, Q15, Request};
-use mm_fis::{Accuracy, Engine, System};
+use mm_fis::{Accuracy, System};
 
 use crate::scenario::{FuzzyEngine, Loaded, ScenarioError};
 
@@ -67,7 +66,7 @@ impl From<FuzzyError> for Refusal {
                 "a Mamdani system, or `table` or `surface` as `controller.fuzzy_engine`"
             }
             FuzzyError::TooMany(_) => {
-                "at most 32 output terms, or `table` or `surface` as `controller.fuzzy_engine`"
+                "at most 32 output terms (or rules, where sums or complements keep them apart), or `table` or `surface` as `controller.fuzzy_engine`"
             }
             _ => "a system of one input and one output that the engine can evaluate",
         };
@@ -132,12 +131,7 @@ fn mapped<R>(
     input_range: (f64, f64),
     work: impl Fn(&Map<'_>) -> R,
 ) -> Result<R, FuzzyError> {
-    let with = |accuracy| {
-        system.with_engine(accuracy, |engine| {
-            let workspace = RefCell::new(vec![0.0; engine.workspace_len()]);
-            work(&Map { engine, input_range, workspace })
-        })
-    };
+    let with = |accuracy| system.with_function(accuracy, 0, |function| work(&Map { function, input_range }));
     match with(Accuracy::Exact) {
         Err(FuzzyError::Curved(_)) => with(Accuracy::Sampled(FINE)),
         other => other,
@@ -146,18 +140,13 @@ fn mapped<R>(
 
 /// A system as a function of one number.
 struct Map<'a> {
-    engine: &'a Engine<'a>,
+    function: &'a (dyn Fn(&[f64]) -> f64 + Sync),
     input_range: (f64, f64),
-    workspace: RefCell<Vec<f64>>,
 }
 
 impl FuzzySystem<f64> for Map<'_> {
     fn evaluate(&self, x: f64) -> f64 {
-        let mut output = [0.0];
-        // The lengths are those of the engine: there is nothing to refuse.
-        let _met = self.engine.infer(&[x], &mut output, &mut self.workspace.borrow_mut());
-        let [y] = output;
-        y
+        (self.function)(&[x])
     }
 
     fn input_range(&self) -> (f64, f64) {

@@ -103,7 +103,8 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`FuzzyError::Empty`] without inputs, outputs, terms or slots; [`FuzzyError::OutOfRange`] for a premise or slot that does not exist, a
     /// weight above 2^30, a rule joined by OR under a term, or (`outputs.scale`) a row of slots whose area exceeds 2^29 for one,
-    /// 2^33 for all on the scale chosen, or that is out of order.
+    /// 2^33 for all on the scale chosen. That the slots of a row ascend is the compiler's matter: out of order they give another
+    /// number, not an overflow.
     pub fn try_new(tables: &'a Tables<'a>) -> Result<Self, FuzzyError> {
         let Tables { inputs, rest, outputs, .. } = tables;
         for (empty, name) in [

@@ -43,7 +43,8 @@ impl<T: Real, E: Evaluate> Scaled<T, E> {
     /// Puts a system between the ranges it was compiled for.
     ///
     /// # Errors
-    /// [`FuzzyError::NonFinite`] or [`FuzzyError::Inverted`] for a range (`input_range`, `output_range`).
+    /// [`FuzzyError::NonFinite`] or [`FuzzyError::Inverted`] for a range (`input_range`, `output_range`), [`FuzzyError::OutOfRange`] for
+    /// an input range too narrow to be divided into steps.
     pub fn try_new(system: E, input_range: (T, T), output_range: (T, T)) -> Result<Self, FuzzyError> {
         let (input_middle, input_half) = middle_and_half(input_range, "input_range")?;
         let (output_middle, output_half) = middle_and_half(output_range, "output_range")?;

@@ -16,7 +16,7 @@ pub(super) struct TableArgs {
     /// Bits of a knot of a compiled surface, 8 to 16.
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(8..=16))]
     pub(super) bits: u32,
-    /// Largest error of a compiled surface, in output units. Default: 2^-10 of half the output's range.
+    /// Largest error of a compiled surface, in output units. Default: 2^-10 of half the output's range for one input, 2^-8 for two.
     #[arg(long, value_name = "ERROR", value_parser = bound, allow_negative_numbers = true)]
     pub(super) bound: Option<f64>,
     /// Bits to which each of two inputs of a compiled surface is rounded, 8 to 12.

@@ -98,9 +98,9 @@ fn number(text: &str) -> Result<f64, String> {
 
 fn run(args: &EvalArgs, system: &System, values: &[f64]) -> Result<Exit, Exit> {
     let work = |evaluate: &mut Evaluator<'_>| {
-        let mut session = Session::new(args, system);
-        let exit = session.all(evaluate, values);
-        session.remark();
+        let mut run = Run::new(args, system);
+        let exit = run.all(evaluate, values);
+        run.remark();
         exit
     };
     let float = |accuracy| Ok(system.with_engine(accuracy, |engine| work(&mut engines::float(engine)))?);
@@ -172,7 +172,7 @@ impl Met {
 }
 
 /// Evaluations on their way to standard output.
-struct Session<'a> {
+struct Run<'a> {
     system: &'a System,
     out: BufWriter<std::io::StdoutLock<'static>>,
     is_json: bool,
@@ -182,7 +182,7 @@ struct Session<'a> {
     unfired: Met,
 }
 
-impl<'a> Session<'a> {
+impl<'a> Run<'a> {
     fn new(args: &EvalArgs, system: &'a System) -> Self {
         Self {
             system,
@@ -198,8 +198,8 @@ impl<'a> Session<'a> {
     /// Evaluates the values or, without any, standard input.
     fn all(&mut self, evaluate: &mut Evaluator<'_>, values: &[f64]) -> Result<Exit, Exit> {
         let count = self.system.inputs.len().max(1);
-        let mut each = |session: &mut Self, values: &[f64], line: Option<usize>| {
-            values.chunks_exact(count).try_for_each(|inputs| session.one(evaluate, inputs, line))
+        let mut each = |run: &mut Self, values: &[f64], line: Option<usize>| {
+            values.chunks_exact(count).try_for_each(|inputs| run.one(evaluate, inputs, line))
         };
         if self.is_json {
             self.write("[")?;
