@@ -132,6 +132,12 @@ impl System {
         })))
     }
 
+    /// Whether [`leak`](Self::leak) would make tables: a Mamdani system that an engine takes.
+    #[must_use]
+    pub fn leaks(&self, accuracy: Accuracy) -> bool {
+        self.kind == Kind::Mamdani && self.with_engine(accuracy, |_| ()).is_ok()
+    }
+
     fn operators(&self) -> Operators {
         Operators { and: self.and, or: self.or, implication: self.implication, aggregation: self.aggregation }
     }

@@ -50,9 +50,11 @@ fn every_engine_runs_nearly_the_same_loop() {
     let usual = run(&folder, &[]).expect("a run");
     let table = run(&folder, &["controller.fuzzy_engine=table"]).expect("a run");
     assert_eq!(usual.digest, table.digest, "`table` is the default of `bfsmc`");
-    let bundled = run(&folder, &["controller.fis=smooth"]).expect("a run");
-    assert_eq!(usual.digest, bundled.digest, "`smooth` is the default of `bfsmc`");
+    let bundled = run(&folder, &["controller.fis=smooth", "controller.fuzzy_engine=table"]).expect("a run");
+    assert_eq!(usual.digest, bundled.digest, "`smooth` is the own system of `bfsmc`");
     let exact = run(&folder, &["controller.fuzzy_engine=exact"]).expect("a run");
+    let named = run(&folder, &["controller.fis=smooth"]).expect("a run");
+    assert_eq!(exact.digest, named.digest, "`exact` is the default of a system with a name");
     let ratio = usual.metrics.itae_m_s2.sum / exact.metrics.itae_m_s2.sum;
     assert!((ratio - 1.0).abs() < 0.1, "`table` has {ratio} times the ITAE of `exact`");
     for engine in ["q15", "surface"] {
@@ -92,6 +94,12 @@ fn a_system_of_the_users_own_changes_the_run() {
         let changed = run(&folder, &[&own, &format!("controller.fuzzy_engine={engine}")]).expect("a run");
         assert_ne!(usual.digest, changed.digest, "`{engine}` of another system gives the same run");
     }
+    // An uneven range: the equal steps of a table miss 0, the rules do not.
+    folder.write("uneven.fis", &OWN.replace("Range=[-1 1]", "Range=[-1 1.9]").replace("[0 1 1]", "[0 1 3]"));
+    let uneven = format!("controller.fis={}", folder.path("uneven.fis").display());
+    run(&folder, &[&uneven]).expect("a run by the rules");
+    let table = refused(&folder, &[&uneven, "controller.fuzzy_engine=table"]);
+    assert!(table.contains("as `table` evaluates it"), "{table}");
     // A law without a fuzzy system takes no notice, so that a comparison can run both.
     let without = run(&folder, &["controller.kind=bsmc"]).expect("a run");
     let with = run(&folder, &["controller.kind=bsmc", &own]).expect("a run");
@@ -134,6 +142,7 @@ fn what_cannot_be_used_is_refused_at_its_place() {
         let taken = run(&folder, &[&curved, &format!("controller.fuzzy_engine={engine}")]);
         assert!(taken.is_ok(), "`{engine}` refuses a curved system: {:?}", taken.err());
     }
+    assert!(run(&folder, &[&curved]).is_ok(), "a curved system has no default engine");
     let message = refused(&folder, &["controller.fis=smoth"]);
     assert!(message.contains("cannot read `smoth`") && message.contains("bundled"), "{message}");
     let message = refused(&folder, &["controller.fuzzy_engine=q31"]);

@@ -20,8 +20,10 @@ const FINE: Sampling = Sampling::Ends(501);
 pub(super) fn term(loaded: &Loaded, kind: LawKind) -> Result<Option<FuzzyTerm<f64>>, ScenarioError> {
     let controller = &loaded.file.controller;
     let default = match kind {
-        LawKind::Bfsmc => FuzzyEngine::Table,
-        LawKind::BfsmcThesis => FuzzyEngine::Exact,
+        // A table of equal steps would make a slope of a jump, and miss 0 where the range is uneven.
+        LawKind::Bfsmc if loaded.fis.is_none() => FuzzyEngine::Table,
+        LawKind::Bfsmc | LawKind::BfsmcThesis if exact(loaded) => FuzzyEngine::Exact,
+        LawKind::Bfsmc | LawKind::BfsmcThesis => FuzzyEngine::Surface,
         _ => return Ok(None),
     };
     if loaded.fis.is_none() && controller.fuzzy_engine.is_none() {
@@ -40,11 +42,30 @@ pub(super) fn term(loaded: &Loaded, kind: LawKind) -> Result<Option<FuzzyTerm<f6
         loaded.problem(key, message, expected)
     })?;
     if kind == LawKind::Bfsmc && !term.opposes() {
-        let message = "the system aids the motion: it answers some input with an output of the same sign, or 0 not with 0";
+        let message = format!(
+            "the system aids the motion, as `{}` evaluates it: it answers some input with an output of the same sign, or 0 not with 0",
+            name(engine)
+        );
         let expected = "for `bfsmc` an output against the sign of the input, over a range on both sides of 0";
         return Err(loaded.problem("controller.fis", message, expected));
     }
     Ok(Some(term))
+}
+
+/// Whether the system of the scenario, or the law's own, can be evaluated by its rules with the exact centroid.
+fn exact(loaded: &Loaded) -> bool {
+    loaded.fis.as_ref().is_none_or(|system| system.leaks(Accuracy::Exact))
+}
+
+/// Name of an engine in a scenario.
+const fn name(engine: FuzzyEngine) -> &'static str {
+    match engine {
+        FuzzyEngine::Table => "table",
+        FuzzyEngine::Exact => "exact",
+        FuzzyEngine::Sampled => "sampled",
+        FuzzyEngine::Q15 => "q15",
+        FuzzyEngine::Surface => "surface",
+    }
 }
 
 fn bundled(name: &str) -> Result<System, String> {

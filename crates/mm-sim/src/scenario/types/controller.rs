@@ -36,7 +36,8 @@ pub struct Controller {
     /// `.fcl` file, sought in the folder of the scenario file, a name given by `--set` from the working directory; or the bundled
     /// `thesis` or `smooth`. The input is s over `gains.fuzzy_scale`, the output is multiplied by `gains.fuzzy_gain`.
     pub fis: Option<String>,
-    /// How the fuzzy system of the law is evaluated. Default: `table` for `bfsmc`, `exact` for `bfsmc-thesis`.
+    /// How the fuzzy system of the law is evaluated. Default: `table` for the own system of `bfsmc`, `exact` for that of `bfsmc-thesis` and
+    /// for one that `fis` names, `surface` where that has no exact centroid.
     pub fuzzy_engine: Option<FuzzyEngine>,
     /// How configuration and velocity are found from what the sensors read.
     #[serde(default)]
