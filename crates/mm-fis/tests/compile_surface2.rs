@@ -120,6 +120,32 @@ fn what_cannot_be_met_is_refused() {
     assert!(matches!(refused, Err(CompileError::Request { name: "input_bits", .. })), "{refused:?}");
 }
 
+#[test]
+fn the_bound_in_a_refusal_is_met_and_without_one_there_is_a_table() {
+    for file in ["tipper", "pendulum", "fan"] {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/systems/{file}.fis"));
+        let text = std::fs::read_to_string(path).expect("a file of the tests");
+        let system = mm_fis::read(file, &text).expect("a proper file").system;
+        let ranges = ([system.inputs[0].range, system.inputs[1].range], system.outputs[0].range);
+        let half = 0.5 * (ranges.1.1 - ranges.1.0);
+        let accuracy = Accuracy::Sampled(mm_control::fuzzy::Sampling::Ends(101));
+        let work = |f: &Function<'_>| {
+            let compile = |bound| {
+                let request = Request { bound, max_knots: 300, ..bits(8) };
+                CompiledSurface2::compile(file, f, ranges, &request)
+            };
+            let refused = compile(Some(1e-3 * half));
+            let Err(CompileError::Bound { reachable, .. }) = refused else { panic!("{file}: {refused:?}") };
+            verify(&compile(Some(reachable)).expect("the refusal says so"), f);
+            verify(&compile(None).expect("a bound is found"), f);
+        };
+        system.with_function(accuracy, 0, work).expect("a proper system");
+    }
+    let few = Request { max_knots: 3, ..bits(8) };
+    let refused = CompiledSurface2::compile("plane", &|x| x[0], SQUARE, &few);
+    assert_eq!(refused, Err(CompileError::Knots { max_knots: 3, least: 4 }));
+}
+
 fn origin(name: &str) -> Origin<'_> {
     Origin { name, command: "cargo test" }
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use mm_control::fuzzy::fixed::Section;
 use serde::Deserialize;
 
-use super::text::{Origin, facts_of_surface, number, numbers, quoted, range};
+use super::text::{Origin, c_ranges, facts_of_surface, number, numbers, quoted, range};
 use super::{CompileError, CompiledSurface, Jump};
 
 impl CompiledSurface {
@@ -62,6 +62,7 @@ impl CompiledSurface {
         let (prefix, guard) = (origin.prefix(), format!("{}_H", origin.constant()));
         let head: String = origin.head(" *", &self.name, &self.facts());
         let mut text = format!("/*\n{head} */\n#ifndef {guard}\n#define {guard}\n\n#include <stdint.h>\n\n");
+        text.push_str(&c_ranges(&origin.constant(), &[self.input_range], self.output_range));
         let _infallible = write!(
             text,
             "static const int16_t {prefix}_knots[{}] = {{\n{}}};\n\n",

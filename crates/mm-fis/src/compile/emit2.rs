@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::Deserialize;
 
-use super::text::{Origin, facts_of_surface, number, numbers, one_line, quoted, range};
+use super::text::{Origin, c_ranges, facts_of_surface, number, numbers, one_line, quoted, range};
 use super::{CompileError, CompiledSurface2};
 
 impl CompiledSurface2 {
@@ -62,7 +62,7 @@ impl CompiledSurface2 {
         };
         let declared = if self.odd { "    int turned;\n" } else { "" };
         format!(
-            "/*\n{head} */\n#ifndef {guard}\n#define {guard}\n\n#include <stdint.h>\n\n\
+            "/*\n{head} */\n#ifndef {guard}\n#define {guard}\n\n#include <stdint.h>\n\n{ranges}\
              static const int16_t {prefix}_knots[{count}] = {{\n{knots}}};\n\n\
              /* Output for the inputs q1, q2; each is rounded to {bits} bits first. */\n\
              static inline int16_t {prefix}_evaluate(int16_t q1, int16_t q2)\n{{\n    \
@@ -80,6 +80,7 @@ impl CompiledSurface2 {
              y = (int32_t)((uint64_t)(sum + (INT64_C(32768) << {shift})) >> {shift}) - 32768;\n{back}    return (int16_t)y;\n}}\n\n\
              #endif /* {guard} */\n",
             head = origin.head(" *", &self.name, &self.facts()),
+            ranges = c_ranges(&origin.constant(), &self.input_ranges, self.output_range),
             count = self.knots.len(),
             knots = numbers(&self.knots, "    "),
             rounding = 32768 + ((1 << unit) >> 1),

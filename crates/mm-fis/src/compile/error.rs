@@ -36,18 +36,22 @@ pub enum CompileError {
         value: f64,
     },
     /// No table within the limit on knots, at the resolution of the output, meets the bound.
-    #[error(
-        "no table of at most {max_knots} knots meets the bound {bound:.3e}: the best reaches {reachable:.3e}, worst at {at:?}"
-    )]
+    #[error("no table of at most {max_knots} knots meets the bound {bound:e}; {reachable:e} can be met")]
     Bound {
         /// What was asked for, in output units.
         bound: f64,
-        /// The smallest largest error that was found, in output units.
+        /// A bound that is met, all else being the same, in output units; it has two decimal digits and was tried.
         reachable: f64,
-        /// Where it is.
-        at: Vec<f64>,
         /// The limit on knots.
         max_knots: usize,
+    },
+    /// The limit on knots is below what any table takes.
+    #[error("no table has at most {max_knots} knots: it takes {least}")]
+    Knots {
+        /// The limit on knots.
+        max_knots: usize,
+        /// How many the smallest table has.
+        least: usize,
     },
     /// A generated file could not be read back.
     #[error("{0}")]

@@ -13,6 +13,7 @@ mod fit;
 mod function;
 mod jumps;
 mod q15;
+mod reach;
 mod request;
 mod row;
 mod steps;

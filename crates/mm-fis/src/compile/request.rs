@@ -5,7 +5,8 @@ use super::CompileError;
 /// What a surface is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
-    /// Largest error, in output units; `None` for 2^-10 of half the output's range with one input, 2^-8 with two.
+    /// Largest error, in output units. `None` for 2^-10 of half the output's range with one input; with two for the first of 2^-8, 2^-7, 2^-6
+    /// ... of it that can be met.
     pub bound: Option<f64>,
     /// Bits of a knot, 8 to 16: knots are multiples of 2^(16 - bits) units.
     pub bits: u32,

@@ -5,6 +5,7 @@ use mm_control::fuzzy::fixed::{Evaluate, Section, Surface1};
 use super::CompileError;
 use super::fit::{self, Band};
 use super::jumps::{self, Jump};
+use super::reach::reachable;
 use super::request::{Request, check_range};
 use super::steps::Scale;
 
@@ -68,7 +69,8 @@ impl CompiledSurface {
     /// output range (a Sugeno system may), the range is widened about its middle.
     ///
     /// # Errors
-    /// [`CompileError::Request`], [`CompileError::NotFinite`]; [`CompileError::Bound`] with what can be reached.
+    /// [`CompileError::Request`], [`CompileError::NotFinite`]; [`CompileError::Bound`] with a bound that can be met; [`CompileError::Knots`] for a
+    /// limit below what any table takes.
     pub fn compile(
         name: &str,
         f: &dyn Fn(f64) -> f64,
@@ -80,17 +82,43 @@ impl CompiledSurface {
         check_range("output range", output_range)?;
         let samples = Samples::of(f, input_range, output_range)?;
         let bound = request.bound.unwrap_or_else(|| samples.output.difference(32.0));
-        let bound_steps = samples.output.difference_in_steps(bound);
+        Self::within(name, f, &samples, (bound, request))
+            .ok_or_else(|| Self::refused(f, &samples, (bound, request)))
+    }
+
+    /// The table for a bound, if there is one.
+    fn within(
+        name: &str,
+        f: &dyn Fn(f64) -> f64,
+        samples: &Samples,
+        (bound, request): (f64, &Request),
+    ) -> Option<Self> {
+        // Beyond the whole range every table is good.
+        let bound_steps = samples.output.difference_in_steps(bound).min(65536.0);
         let jumps = samples.jumps(f, bound_steps);
+        let with = |jumps| Self::with_jumps(name, samples, jumps, (bound, bound_steps), request);
+        // A jump that lies within the bound may still be worth a section of its own.
+        with(jumps.clone()).or_else(|| {
+            let more = samples.jumps(f, bound_steps / 16.0);
+            if more == jumps { None } else { with(more) }
+        })
+    }
+
+    /// The table that is cut at these jumps, if there is one.
+    fn with_jumps(
+        name: &str,
+        samples: &Samples,
+        jumps: Vec<Jump>,
+        (bound, bound_steps): (f64, f64),
+        request: &Request,
+    ) -> Option<Self> {
         let parts = samples.parts(&jumps);
-        let Some(found) = Fitted::fewest(&samples, &parts, bound_steps, request) else {
-            return Err(samples.unreachable(&parts, bound, request));
-        };
-        let fitted = found.tightened(&samples, &parts, bound_steps, request.knot_step());
+        let found = Fitted::fewest(samples, &parts, bound_steps, request)?;
+        let fitted = found.tightened(samples, &parts, bound_steps, request.knot_step());
         let (sections, knots) = fitted.joined(&parts);
         let mut compiled = Self {
             name: name.to_owned(),
-            input_range,
+            input_range: samples.input_range,
             output_range: samples.output_range,
             odd: samples.odd,
             sections,
@@ -101,11 +129,24 @@ impl CompiledSurface {
             error_at: samples.input.value(0.0),
             jumps,
         };
-        compiled.measure(&samples);
-        if compiled.error > bound * (1.0 + 1e-9) {
-            return Err(samples.unreachable(&parts, bound, request));
-        }
-        Ok(compiled)
+        compiled.measure(samples);
+        let is_met = compiled.error <= bound * (1.0 + 1e-9) && compiled.knots.len() <= request.max_knots;
+        is_met.then_some(compiled)
+    }
+
+    /// Why there is no table: a bound that can be met, or the number of knots that any table takes.
+    fn refused(f: &dyn Fn(f64) -> f64, samples: &Samples, (bound, request): (f64, &Request)) -> CompileError {
+        let (least, whole) = (samples.output.difference(0.25), samples.output.difference(65536.0));
+        let max_knots = request.max_knots;
+        let is_met = |bound| Self::within("", f, samples, (bound, request)).is_some();
+        reachable(bound, (least, whole), &is_met).map_or_else(
+            || {
+                let unlimited = Request { max_knots: usize::MAX, ..*request };
+                let smallest = Self::within("", f, samples, (whole, &unlimited));
+                CompileError::Knots { max_knots, least: smallest.map_or(5, |table| table.knots.len()) }
+            },
+            |reachable| CompileError::Bound { bound, reachable, max_knots },
+        )
     }
 
     /// Finds the largest error over all inputs by evaluating the finished table.
@@ -125,6 +166,7 @@ impl CompiledSurface {
 
 /// The function at all inputs, in steps of the output.
 struct Samples {
+    input_range: (f64, f64),
     input: Scale,
     output: Scale,
     output_range: (f64, f64),
@@ -148,7 +190,7 @@ impl Samples {
         let output = Scale::of(output_range);
         let steps: Vec<f64> = values.into_iter().map(|value| output.steps(value)).collect();
         let odd = steps.iter().zip(steps.iter().rev()).all(|(y, mirrored)| (y + mirrored).abs() <= 1e-6);
-        Ok(Self { input, output, output_range, steps, odd })
+        Ok(Self { input_range, input, output, output_range, steps, odd })
     }
 
     fn at(&self, q: i32) -> f64 {
@@ -192,37 +234,6 @@ impl Samples {
         let lowest = (first..).zip(&exact).map(low).collect();
         let highest = (first..).zip(&exact).map(high).collect();
         Band { lowest, highest, exact }
-    }
-
-    /// The error of a request that cannot be met: the smallest bound that can.
-    fn unreachable(&self, parts: &[(i32, i32)], bound: f64, request: &Request) -> CompileError {
-        let asked = self.output.difference_in_steps(bound);
-        let (mut fails, mut meets) = (asked, asked.max(0.25));
-        while Fitted::fewest(self, parts, meets, request).is_none() && meets < 65536.0 {
-            fails = meets;
-            meets *= 2.0;
-        }
-        for _ in 0..8 {
-            let middle = 0.5 * (fails + meets);
-            if Fitted::fewest(self, parts, middle, request).is_some() {
-                meets = middle;
-            } else {
-                fails = middle;
-            }
-        }
-        let steepest = (self.domain().0..self.domain().1)
-            .filter(|&q| parts.iter().all(|part| part.1 != q))
-            .max_by(|&p, &q| {
-                (self.at(p + 1) - self.at(p)).abs().total_cmp(&(self.at(q + 1) - self.at(q)).abs())
-            })
-            .unwrap_or(0);
-        let at = vec![self.input.value(steepest.into())];
-        CompileError::Bound {
-            bound,
-            reachable: self.output.difference(meets),
-            at,
-            max_knots: request.max_knots,
-        }
     }
 }
 

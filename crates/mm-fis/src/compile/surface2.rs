@@ -3,6 +3,7 @@
 use mm_control::fuzzy::fixed::Surface2;
 
 use super::CompileError;
+use super::reach::{doubled, reachable};
 use super::request::{Request, check_range};
 use super::steps::Scale;
 use super::surface1::widened;
@@ -31,7 +32,7 @@ pub struct CompiledSurface2 {
     pub odd: bool,
     /// The knots, row by row; along a row the second input varies.
     pub knots: Vec<i16>,
-    /// The bound that was asked for, in output units.
+    /// The bound that is met, in output units: the one asked for, or the one found.
     pub bound: f64,
     /// The largest error over all points of the inputs, in output units.
     pub error: f64,
@@ -60,11 +61,14 @@ impl CompiledSurface2 {
     /// lead to a table within the bound, starting from the samples and moving knots to balance the errors around them, it takes
     /// those with the fewest knots. An odd function to 10^-6 units gives a table of half the size.
     ///
+    /// A function that jumps, or is steep, needs a knot for every point there. A bound asked for that cannot be met is refused; without
+    /// one ([`Request::bound`]) the default is doubled until it is met.
+    ///
     /// Cost: (2^bits + 1)^2 evaluations of `f`, on all cores.
     ///
     /// # Errors
-    /// [`CompileError::Request`], [`CompileError::NotFinite`]; [`CompileError::Bound`] with what can be reached: a function that jumps needs a
-    /// knot for every point around the jump.
+    /// [`CompileError::Request`], [`CompileError::NotFinite`]; [`CompileError::Bound`] with a bound that can be met; [`CompileError::Knots`] for a
+    /// limit below four knots.
     pub fn compile(
         name: &str,
         f: &(dyn Fn(&[f64]) -> f64 + Sync),
@@ -76,29 +80,22 @@ impl CompiledSurface2 {
         check_range("second input range", input_ranges[1])?;
         check_range("output range", output_range)?;
         let lattice = Lattice::of(f, input_ranges, output_range, request.input_bits)?;
-        let bound = request.bound.unwrap_or_else(|| lattice.output.difference(128.0));
-        let steps = lattice.output.difference_in_steps(bound) * (1.0 + 1e-12);
-        let mut best: Option<Fitted> = None;
-        for shifts in lattice.shifts(request.max_knots) {
-            let fitted = lattice.fitted(shifts, steps, request.knot_step());
-            let met = fitted.error <= steps;
-            if best.as_ref().is_none_or(|best| fitted.error < best.error) {
-                best = Some(fitted);
-            }
-            if met {
-                break;
-            }
-        }
-        let refuse = |reachable, at: Vec<f64>| {
-            Err(CompileError::Bound { bound, reachable, at, max_knots: request.max_knots })
+        let whole = lattice.output.difference(65536.0);
+        let attempt = |bound: f64| Some((bound, lattice.met(bound, request)?));
+        let found = match request.bound {
+            Some(bound) => attempt(bound),
+            None => doubled(lattice.output.difference(128.0), whole, &attempt),
         };
-        let Some(Fitted { shifts, knots, error, at }) = best else {
-            return refuse(f64::INFINITY, Vec::new());
+        let Some((bound, Fitted { shifts, knots, error, at })) = found else {
+            let max_knots = request.max_knots;
+            let least = lattice.output.difference(0.25);
+            let refused = request.bound.and_then(|bound| {
+                let reachable = reachable(bound, (least, whole), &|bound| attempt(bound).is_some())?;
+                Some(CompileError::Bound { bound, reachable, max_knots })
+            });
+            return Err(refused.unwrap_or(CompileError::Knots { max_knots, least: 4 }));
         };
         let at = lattice.position(at);
-        if error > steps {
-            return refuse(lattice.output.difference(error), at.to_vec());
-        }
         Ok(Self {
             name: name.to_owned(),
             input_ranges,
@@ -208,6 +205,14 @@ impl Lattice {
     fn input(&self, index: usize) -> i16 {
         let input = i32::try_from(index << (16 - self.bits)).map_or(i32::MAX, |input| input - 32768);
         i16::try_from(input).unwrap_or(i16::MAX)
+    }
+
+    /// The smallest table within a bound in output units.
+    fn met(&self, bound: f64, request: &Request) -> Option<Fitted> {
+        let steps = self.output.difference_in_steps(bound) * (1.0 + 1e-12);
+        let fitted = |shifts| self.fitted(shifts, steps, request.knot_step());
+        let mut tables = self.shifts(request.max_knots).into_iter().map(fitted);
+        tables.find(|fitted| fitted.error <= steps)
     }
 
     /// A table with the given distances: samples, then knots moved to balance the errors around them, as long as that helps.

@@ -67,6 +67,23 @@ pub(super) fn range((lo, hi): (f64, f64)) -> String {
     format!("[{}, {}]", number(lo), number(hi))
 }
 
+/// Macros of C with the ends of ranges, and how numbers of 16 bits come from values and back.
+pub(super) fn c_ranges(constant: &str, inputs: &[(f64, f64)], output: (f64, f64)) -> String {
+    let number_of = |at: usize| if inputs.len() > 1 { (at + 1).to_string() } else { String::new() };
+    let input = |(at, &ends): (usize, &(f64, f64))| (format!("INPUT{}", number_of(at)), ends);
+    let named = inputs.iter().enumerate().map(input).chain([("OUTPUT".to_owned(), output)]);
+    let mut text = "/* From a value x to q: (x - middle) / half * 32768, rounded, held within -32768 to 32767; from a result y to a value:\n   \
+                    middle + half * y / 32768. Here middle = (MAX + MIN) / 2 and half = (MAX - MIN) / 2 of the range. */\n"
+        .to_owned();
+    for (name, (lo, hi)) in named {
+        for (end, value) in [("MIN", lo), ("MAX", hi)] {
+            let _infallible = writeln!(text, "#define {constant}_{name}_{end} ({})", number(value));
+        }
+    }
+    text.push('\n');
+    text
+}
+
 /// A string in quotes, escaped as TOML has it.
 pub(super) fn quoted(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()

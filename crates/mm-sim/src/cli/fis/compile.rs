@@ -86,7 +86,7 @@ fn compiled(args: &CompileArgs) -> Result<Exit, Exit> {
             let output = which(args, system)?;
             let table =
                 Table::compile(system, output, &args.table.request()).map_err(|error| named(&error))?;
-            let report = report_of_table(system, output, &table);
+            let report = report_of_table(system, output, &table, args.table.bound.is_some());
             (Compiled::Table(table), report)
         }
     };
@@ -206,7 +206,7 @@ fn command(args: &CompileArgs) -> String {
     shell::command(words.iter().map(String::as_str))
 }
 
-fn report_of_table(system: &System, output: usize, table: &Table) -> String {
+fn report_of_table(system: &System, output: usize, table: &Table, is_asked: bool) -> String {
     let name = |variables: &[mm_fis::Variable], at: usize| {
         variables.get(at).map_or_else(String::new, |variable| variable.name.clone())
     };
@@ -250,9 +250,10 @@ fn report_of_table(system: &System, output: usize, table: &Table) -> String {
             );
             writeln!(
                 out,
-                "largest error {error:.3e} at `{}` = {x}, `{}` = {y}, bound {bound:.3e}, over all inputs of {input_bits} bits",
+                "largest error {error:.3e} at `{}` = {x}, `{}` = {y}, bound {bound:.3e}{}, over all inputs of {input_bits} bits",
                 name(&system.inputs, 0),
-                name(&system.inputs, 1)
+                name(&system.inputs, 1),
+                if is_asked { String::new() } else { found(*bound, table.output_range) }
             )
         }
     };
@@ -260,6 +261,12 @@ fn report_of_table(system: &System, output: usize, table: &Table) -> String {
         out.push_str("the output sets are curved: the errors are those from sampled centroids\n");
     }
     out
+}
+
+/// How a bound that was found and not asked for lies to the range.
+fn found(bound: f64, (lo, hi): (f64, f64)) -> String {
+    let halvings = (0.5 * (hi - lo) / bound).log2().round();
+    format!(" (2^{} of half the output's range)", 0.0 - halvings)
 }
 
 /// A place in a range without the digits that halving the interval around it left behind.

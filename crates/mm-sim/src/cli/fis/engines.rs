@@ -16,7 +16,8 @@ pub(super) struct TableArgs {
     /// Bits of a knot of a compiled surface, 8 to 16.
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(8..=16))]
     pub(super) bits: u32,
-    /// Largest error of a compiled surface, in output units. Default: 2^-10 of half the output's range for one input, 2^-8 for two.
+    /// Largest error of a compiled surface, in output units. Default: 2^-10 of half the output's range for one input, 2^-8 for two, there
+    /// doubled until it is met.
     #[arg(long, value_name = "ERROR", value_parser = bound, allow_negative_numbers = true)]
     pub(super) bound: Option<f64>,
     /// Bits to which each of two inputs of a compiled surface is rounded, 8 to 12.
@@ -55,22 +56,30 @@ pub(super) enum EngineError {
     #[error(transparent)]
     System(#[from] FuzzyError),
     /// It cannot be compiled.
-    #[error("{0}{hint}", hint = hint(.0))]
+    #[error(transparent)]
     Compile(#[from] CompileError),
+    /// It cannot be compiled to a table; what to ask for instead.
+    #[error("{0}{1}")]
+    Table(CompileError, String),
     /// A table has one input or two.
     #[error("a compiled surface has one input or two, this system has {0}")]
     Inputs(usize),
 }
 
-/// What to ask for instead, where a bound is out of reach.
-fn hint(error: &CompileError) -> String {
+/// What to ask for instead, where a bound or a number of knots is out of reach.
+fn hint(error: &CompileError, inputs: usize, request: &Request) -> String {
     match error {
         CompileError::Bound { reachable, .. } => {
-            format!(
-                "; ask for less (--bound {:.1e}), or allow more (--max-knots, --input-bits)",
-                1.06 * reachable
-            )
+            let mut others = vec!["more knots (--max-knots)"];
+            if request.bits < 16 {
+                others.push("finer ones (--bits)");
+            }
+            if inputs > 1 && request.input_bits > 8 {
+                others.push("coarser inputs (--input-bits)");
+            }
+            format!("; ask for less (--bound {reachable:e}), or allow {}", others.join(" or "))
         }
+        CompileError::Knots { least, .. } => format!("; allow more (--max-knots {least})"),
         _ => String::new(),
     }
 }
@@ -188,14 +197,20 @@ impl Table {
     pub(super) fn compile(system: &System, output: usize, request: &Request) -> Result<Self, EngineError> {
         let range = system.outputs.get(output).ok_or(FuzzyError::OutOfRange("outputs"))?.range;
         let name = &system.name;
+        let refused = |error| {
+            let hint = hint(&error, system.inputs.len(), request);
+            EngineError::Table(error, hint)
+        };
         match system.inputs.as_slice() {
             [input] => system.with_function(best(system, SAMPLES_OF_ONE), output, |f| {
                 let f = |x: f64| f(&[x]);
-                Ok(Self::One(CompiledSurface::compile(name, &f, (input.range, range), request)?))
+                CompiledSurface::compile(name, &f, (input.range, range), request)
+                    .map(Self::One)
+                    .map_err(refused)
             })?,
             [first, second] => system.with_function(best(system, SAMPLES_OF_TWO), output, |f| {
                 let ranges = ([first.range, second.range], range);
-                Ok(Self::Two(CompiledSurface2::compile(name, f, ranges, request)?))
+                CompiledSurface2::compile(name, f, ranges, request).map(Self::Two).map_err(refused)
             })?,
             inputs => Err(EngineError::Inputs(inputs.len())),
         }
