@@ -421,3 +421,22 @@ fn many_inputs_and_rules_are_checked_in_bounded_time() {
     let is_known = kinds(&report).contains(&Kind::NoRuleFires);
     assert!(is_known || !report.skipped.is_empty(), "found, or said that it was not looked for");
 }
+
+/// Law: what an output takes on includes what it is at the corners, also where no line goes.
+/// Reference: with five inputs of three terms the rules of the corners alone conclude the outer terms, of centroid -0.5 and 0.5.
+#[test]
+fn the_reach_of_five_inputs_includes_the_corners() {
+    let mut text = String::from("[System]\nName='five'\n");
+    for number in 1..=5 {
+        text += &format!(
+            "[Input{number}]\nName='x{number}'\nRange=[-1 1]\nMF1='a':'trimf',[-2 -1 0]\nMF2='b':'trimf',[-1 0 1]\nMF3='c':'trimf',[0 1 2]\n"
+        );
+    }
+    text += "[Output1]\nName='y'\nRange=[-1 1]\nMF1='a':'trimf',[-1 -.5 0]\nMF2='b':'trimf',[-.5 0 .5]\nMF3='c':'trimf',[0 .5 1]\n";
+    text += "[Rules]\n1 1 1 1 1, 1 (1) : 1\n3 3 3 3 3, 3 (1) : 1\n0 2 0 0 0, 2 (1) : 1\n";
+    let report = report(&text);
+    near(report.outputs[0].reached.0, -0.5, 1e-9, "the lowest corner");
+    near(report.outputs[0].reached.1, 0.5, 1e-9, "the highest corner");
+    let words = report.outputs[0].to_string();
+    assert!(words.contains("takes on at least [-0.5, 0.5]"), "{words}");
+}

@@ -3,6 +3,7 @@
 use mm_control::fuzzy::{FuzzyError, Sampling};
 
 use super::cells::{is_tailed, set_of};
+use super::points::points;
 use super::probe::Probe;
 use super::scan::{Place, Scan, places};
 use super::words::{Short, list};
@@ -14,6 +15,9 @@ const WORK: usize = 40_000_000;
 /// Most lines along an input, and most values of each other input.
 const MOST_LINES: usize = 128;
 const MOST_VALUES: usize = 33;
+/// Fewest and most points of a kind besides the lines.
+const FEWEST_POINTS: usize = 64;
+const MOST_POINTS: usize = 4096;
 /// Part of the range that has to be missing at an end for an output not to reach it.
 const MISSING: f64 = 0.25;
 /// Jumps that a finding lists.
@@ -38,6 +42,8 @@ struct Grain {
     parts: u32,
     /// Lines along each input.
     lines: usize,
+    /// Most points of a kind besides the lines.
+    points: usize,
     is_sampled: bool,
 }
 
@@ -110,7 +116,7 @@ pub fn along(system: &System, output: usize, axis: usize, base: &[f64]) -> Resul
 fn grain(system: &System, Known { samples, jump, turn }: Known) -> Grain {
     if system.inputs.len() == 1 {
         let parts = if samples.is_some() { 500 } else { 2000 };
-        return Grain { jump, turn, parts, lines: 1, is_sampled: samples.is_some() };
+        return Grain { jump, turn, parts, lines: 1, points: 0, is_sampled: samples.is_some() };
     }
     let parts: u32 = if samples.is_some() { 48 } else { 96 };
     let count = |variables: &[Variable]| variables.iter().map(|variable| variable.terms.len()).sum::<usize>();
@@ -125,7 +131,8 @@ fn grain(system: &System, Known { samples, jump, turn }: Known) -> Grain {
     let line =
         one.saturating_mul(parts as usize + 12 * system.inputs.first().map_or(0, |input| input.terms.len()));
     let lines = (WORK / line.saturating_mul(inputs).max(1)).clamp(1, MOST_LINES);
-    Grain { jump, turn, parts, lines, is_sampled: samples.is_some() }
+    let points = (WORK / one.max(1)).clamp(FEWEST_POINTS, MOST_POINTS);
+    Grain { jump, turn, parts, lines, points, is_sampled: samples.is_some() }
 }
 
 fn analyse(system: &System, mut probe: Probe<'_>, grain: Grain) -> Probed {
@@ -137,6 +144,7 @@ fn analyse(system: &System, mut probe: Probe<'_>, grain: Grain) -> Probed {
             output: output.name.clone(),
             range: output.range,
             reached: (f64::INFINITY, f64::NEG_INFINITY),
+            is_partial: system.inputs.len() > 1,
         })
         .collect();
     for (axis, input) in system.inputs.iter().enumerate() {
@@ -151,11 +159,14 @@ fn analyse(system: &System, mut probe: Probe<'_>, grain: Grain) -> Probed {
                 let runs = scan.runs(&mut probe, number, (grain.turn * width, width));
                 let values = scan.curve(number).into_iter().map(|(_, value)| value);
                 let turns = runs.iter().flat_map(|run| [run.from_value, run.to_value]);
-                for value in values.chain(turns) {
-                    reach.reached = (reach.reached.0.min(value), reach.reached.1.max(value));
-                }
+                values.chain(turns).for_each(|value| reach.see(value));
                 lines.push(Line { axis, base: base.clone(), jumps, runs });
             }
+        }
+    }
+    if grain.points > 0 {
+        for inputs in points(system, grain.points) {
+            outputs.iter_mut().zip(probe.at(&inputs)).for_each(|(reach, value)| reach.see(value));
         }
     }
     let mut findings = Vec::new();
@@ -320,6 +331,12 @@ fn reach(reach: &Reach) -> Option<Finding> {
     if least < lo - SAME_PLACE * width || most > hi + SAME_PLACE * width {
         return Some(finding(Kind::RangeExceeded, "a range is exceeded"));
     }
-    (least > lo + MISSING * width || most < hi - MISSING * width)
-        .then(|| finding(Kind::RangeNotReached, "an end of a range is never near"))
+    (least > lo + MISSING * width || most < hi - MISSING * width).then(|| {
+        let what = if reach.is_partial {
+            "no value near an end of a range was seen"
+        } else {
+            "an end of a range is never near"
+        };
+        finding(Kind::RangeNotReached, what)
+    })
 }
