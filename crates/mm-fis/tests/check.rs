@@ -440,3 +440,39 @@ fn the_reach_of_five_inputs_includes_the_corners() {
     let words = report.outputs[0].to_string();
     assert!(words.contains("takes on at least [-0.5, 0.5]"), "{words}");
 }
+
+/// Law: where rules fire by rounding alone there is no jump, and nothing is taken on.
+/// Reference: at the foot of `smf` the strengths of `b` and `not b'` fall together as d^2/8 and d^2/8, so that the output goes to the
+/// mean of both numbers, 1.5; just beside the foot `1 - mu` rounds to 0, and the first rule is alone, with 1.
+#[test]
+fn rounding_at_a_smooth_foot_is_no_jump() {
+    let text = "[System]
+Type='sugeno'
+[Input1]
+Name='b'
+Range=[-2 2]
+MF1='up':'smf',[-2 2]
+MF2='down':'zmf',[-2 2]
+[Output1]
+Name='y'
+Range=[0 2]
+MF1='one':'constant',[1]
+MF2='two':'constant',[2]
+[Rules]
+1, 1 (1) : 1
+-2, 2 (1) : 1
+";
+    let found = report(text);
+    let jumps: Vec<_> = found.findings.iter().flat_map(|finding| &finding.jumps).collect();
+    let [jump] = jumps.as_slice() else { panic!("one jump: {jumps:?}") };
+    assert_eq!(jump.inputs, [-2.0], "at the foot");
+    near(jump.right, 1.5, 1e-6, "the limit, up to rounding of 1 - mu at 1e-5 of the range");
+    assert_eq!(found.findings.iter().filter(|finding| finding.kind == Kind::NotMonotone).count(), 0, "level");
+    near(found.outputs[0].reached.1, 1.5, 1e-6, "nothing above");
+    let course = along(&system(text), 0, 0, &[0.0]).expect("runs");
+    assert!(
+        course.points[1..].iter().all(|(_, y)| (y - 1.5).abs() < 1e-3),
+        "level: {:?}",
+        &course.points[..4]
+    );
+}

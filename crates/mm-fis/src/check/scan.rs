@@ -1,6 +1,6 @@
 //! Outputs along one input: where they jump and where they turn.
 
-use super::cells::{breakpoints, set_of};
+use super::cells::{breakpoints, is_tailed, set_of};
 use super::probe::Probe;
 use super::{Jump, Run};
 use crate::Variable;
@@ -9,6 +9,12 @@ use crate::Variable;
 const SIDE: f64 = 1e-12;
 /// The same in the place's own size: some of its smallest steps.
 const SIDE_OF_PLACE: f64 = 2e-15;
+/// Distance up to which a value beside a breakpoint has to last, in the range, and the part of the way to the next breakpoint.
+const LASTING: f64 = 1e-5;
+const PART_OF_WAY: f64 = 0.01;
+/// Part of an output's range by which it may depart from what it is on the way to a breakpoint, and the same in changes on that way.
+const DEPARTURE: f64 = 1e-5;
+const CHANGES: f64 = 8.0;
 /// Halvings of an interval to find a jump.
 const HALVINGS: u32 = 60;
 /// Steps of the search for a turning point.
@@ -23,6 +29,8 @@ pub(super) struct Place {
     /// Where it counts as: for the sides of a breakpoint, there.
     at: f64,
     is_breakpoint: bool,
+    /// For the side of a breakpoint: the step to further places on that side, over which its value has to last; else 0.
+    lasting: f64,
 }
 
 impl Place {
@@ -37,14 +45,28 @@ pub(super) fn places(input: &Variable, parts: u32) -> Vec<Place> {
     let (lo, hi) = input.range;
     let mut all: Vec<Place> = (0..=parts)
         .map(|k| lo + (hi - lo) * (f64::from(k) / f64::from(parts)))
-        .map(|x| Place { x, at: x, is_breakpoint: false })
+        .map(|x| Place { x, at: x, is_breakpoint: false, lasting: 0.0 })
         .collect();
-    let own = input.terms.iter().filter_map(set_of).flat_map(breakpoints);
-    for at in own.filter(|at| *at >= lo && *at <= hi).chain([lo, hi]) {
+    let mut own: Vec<f64> = input.terms.iter().filter_map(set_of).flat_map(breakpoints).collect();
+    own.extend([lo, hi]);
+    own.retain(|at| *at >= lo && *at <= hi);
+    own.sort_by(f64::total_cmp);
+    own.dedup_by(|next, kept| next <= kept);
+    let footed = |at: f64| {
+        let sets = input.terms.iter().filter_map(set_of).filter(|set| !is_tailed(set));
+        sets.flat_map(breakpoints).any(|other| (other - at).abs() <= 0.0)
+    };
+    for (number, &at) in own.iter().enumerate() {
         let side = side(at, input.range);
-        all.push(Place { x: at, at, is_breakpoint: true });
-        all.push(Place { x: at - side, at, is_breakpoint: false });
-        all.push(Place { x: at + side, at, is_breakpoint: false });
+        all.push(Place { x: at, at, is_breakpoint: true, lasting: 0.0 });
+        let (before, after) = (number.checked_sub(1).and_then(|before| own.get(before)), own.get(number + 1));
+        for (sign, next) in [(-1.0, before), (1.0, after)] {
+            let Some(next) = next else { continue };
+            let lasting = (LASTING * (hi - lo)).min(PART_OF_WAY * (next - at).abs());
+            // Rounding is seen only far from the side itself.
+            let lasting = if footed(at) && lasting > 1e4 * side { sign * lasting } else { 0.0 };
+            all.push(Place { x: at + sign * side, at, is_breakpoint: false, lasting });
+        }
     }
     all.retain(|place| place.x >= lo && place.x <= hi);
     all.sort_by(|a, b| a.x.total_cmp(&b.x).then(b.is_breakpoint.cmp(&a.is_breakpoint)));
@@ -74,8 +96,30 @@ impl<'a> Scan<'a> {
         places: &'a [Place],
     ) -> Self {
         let mut scan = Self { base: base.to_vec(), axis, range, places, values: Vec::new() };
-        scan.values = places.iter().map(|place| scan.outputs(probe, place.x)).collect();
+        scan.values = places.iter().map(|place| scan.lasting(probe, *place)).collect();
         scan
+    }
+
+    /// The outputs at a place; at the side of a breakpoint those that last.
+    ///
+    /// Where all rules fire faintly, their strengths may be mere rounding, as of `1 - mu` at the foot of a smooth `mu`. What the outputs
+    /// are there is then no limit: this is taken from further away, along the straight line.
+    fn lasting(&self, probe: &mut Probe<'_>, place: Place) -> Vec<f64> {
+        let mut values = self.outputs(probe, place.x);
+        if place.lasting.abs() <= 0.0 {
+            return values;
+        }
+        let [near, far, farther] =
+            [1.0, 2.0, 4.0].map(|steps| self.outputs(probe, place.at + steps * place.lasting));
+        let further = near.iter().zip(&far).zip(&farther).zip(probe.widths());
+        for (value, (((near, far), farther), width)) in values.iter_mut().zip(further) {
+            let limit = 2.0 * near - far;
+            let change = (near - far).abs() + (far - farther).abs();
+            if (*value - limit).abs() > DEPARTURE * width + CHANGES * change {
+                *value = limit;
+            }
+        }
+        values
     }
 
     /// The inputs at a place along the line.
@@ -144,8 +188,10 @@ impl<'a> Scan<'a> {
             if to.0.x - from.0.x <= 1.5 * side(middle, self.range) {
                 break;
             }
-            let middle =
-                (Place { x: middle, at: middle, is_breakpoint: false }, self.one(probe, output, middle));
+            let middle = (
+                Place { x: middle, at: middle, is_breakpoint: false, lasting: 0.0 },
+                self.one(probe, output, middle),
+            );
             if (middle.1 - from.1).abs() >= (to.1 - middle.1).abs() { to = middle } else { from = middle }
         }
         Some((from, to))
