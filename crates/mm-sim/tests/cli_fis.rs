@@ -311,7 +311,7 @@ fn plot_draws_every_term_by_name() {
     let odd = TIP.replace("'average'", "'a <b> & c'").replace("Name='tip'\nType", "Name='<tip>'\nType");
     folder.write("tip.fis", &odd);
     folder.write("gap.fis", GAP);
-    let cases: [(&[&str], &str, &[&str]); 5] = [
+    let cases: [(&[&str], &str, &[&str]); 6] = [
         (
             &["plot", "thesis"],
             "thesis.svg",
@@ -324,6 +324,7 @@ fn plot_draws_every_term_by_name() {
         ),
         (&["plot", "thesis", "--overlay", "surface", "-o", "over.svg"], "over.svg", &["compiled surface"]),
         (&["plot", "tip.fis", "--inputs", "2"], "tip.svg", &["tip over food (service = 5)"]),
+        (&["plot", "tip.fis", "--inputs", "food"], "tip.svg", &["tip over food (service = 5)"]),
         (&["plot", "tip.fis", "--inputs", "2,1"], "tip.svg", &["tip over food and service"]),
     ];
     for (args, file, texts) in cases {
@@ -350,12 +351,19 @@ fn plot_draws_every_term_by_name() {
                     + "\n",
         "the same on standard output"
     );
-    for (inputs, part) in
-        [("3", "no input 3"), ("0", "no input 0"), ("1,1", "two different"), ("1,2,1", "one input or two")]
-    {
+    for (inputs, part) in [
+        ("3", "no input `3`: expected one of 1 `service`, 2 `food`"),
+        ("0", "no input `0`"),
+        ("1,service", "two different"),
+        ("1,1", "two different"),
+        ("1,2,1", "one input or two"),
+    ] {
         let run = fis(&folder, 2, &["plot", "tip.fis", "--inputs", inputs]);
         assert!(run.stderr.contains(part), "{part:?} in {}", run.stderr);
     }
+    let run = fis(&folder, 2, &["plot", "tip.fis", "-o", "tip.png"]);
+    assert!(run.stderr.contains("expected a name that ends in .svg, or -"), "{}", run.stderr);
+    assert!(!folder.path("tip.png").exists(), "nothing is written");
     let run = fis(&folder, 1, &["plot", "tip.fis", "-o", "no/such/folder.svg"]);
     assert!(run.stderr.contains("cannot write no/such/folder.svg"), "{}", run.stderr);
 }
@@ -450,7 +458,16 @@ fn compile_refuses_what_it_cannot_write() {
         (&["thesis", "--to", "q15", "-o", "table.c"], 2, "for C, compile a surface"),
         (&["thesis", "--bits", "17"], 2, "17"),
         (&["thesis", "--bound", "0"], 2, "expected a number above 0"),
-        (&["thesis", "--bound", "-1"], 2, "--bound"),
+        (
+            &["thesis", "--bound", "-1"],
+            2,
+            "invalid value '-1' for '--bound <ERROR>': expected a number above 0",
+        ),
+        (
+            &["thesis", "-o", "table.h", "--lang", "rust"],
+            2,
+            "--lang rust contradicts the ending of table.h: expected .rs",
+        ),
         (&["thesis", "-o", "no/such/folder.rs"], 1, "cannot write no/such/folder.rs"),
     ] {
         let run = fis(&folder, code, &[&["compile"], args].concat());
@@ -467,4 +484,43 @@ fn each_command_has_help_with_an_example() {
         let run = fis(&folder, 0, &[what, "--help"]);
         assert!(run.stdout.contains(&format!("mmsim fis {what} thesis")), "{}", run.stdout);
     }
+}
+
+/// Law: digits are the shortest that read back to the same bits, also for the smallest and the largest numbers.
+#[test]
+fn eval_writes_small_and_large_numbers_with_an_exponent() {
+    let folder = Folder::new("fis-digits");
+    let run = fis(&folder, 0, &["eval", "thesis", "1e-300", "-1e-8", "1e-7", "1e16", "-inf"]);
+    let first: Vec<&str> = run.stdout.lines().filter_map(|line| line.split(' ').next()).collect();
+    assert_eq!(first, ["1e-300", "-1e-8", "0.0000001", "1e16", "-inf"], "{}", run.stdout);
+    assert_eq!(rows(&run.stdout)[0][0], 1e-300, "read back");
+    let value = json(&fis(&folder, 0, &["eval", "thesis", "--json", "inf"]).stdout);
+    assert!(value[0]["inputs"][0].is_null(), "JSON has no infinite numbers: {value}");
+}
+
+/// Law: an option without effect is named on standard error, and the result is there all the same.
+#[test]
+fn options_without_effect_are_warned_of() {
+    let folder = Folder::new("fis-idle");
+    for (args, part) in [
+        (&["eval", "thesis", "--bits", "8", "0"] as &[&str], "--bits matters only with `--engine surface`"),
+        (
+            &["eval", "thesis", "--engine", "q15", "--bits", "8", "--bound", "1", "0"],
+            "--bits and --bound matter only with `--engine surface`",
+        ),
+        (&["eval", "thesis", "--engine", "surface", "--points", "5", "0"], "only with `--engine sampled`"),
+        (&["compile", "thesis", "--to", "q15", "--bits", "8"], "--bits matters only with `--to surface`"),
+        (&["plot", "thesis", "--bits", "8", "-o", "-"], "--bits matters only with `--overlay surface`"),
+    ] {
+        let run = fis(&folder, 0, args);
+        assert!(run.stderr.starts_with("warning: --"), "{}", run.stderr);
+        assert!(run.stderr.contains(part) && !run.stdout.is_empty(), "{part:?} in {}", run.stderr);
+    }
+    for args in
+        [&["eval", "thesis", "--engine", "surface", "--bits", "16", "0"] as &[&str], &["eval", "thesis", "0"]]
+    {
+        assert_eq!(fis(&folder, 0, args).stderr, "", "{args:?}");
+    }
+    let run = fis(&folder, 2, &["eval", "thesis", "--points", "-5", "0"]);
+    assert!(run.stderr.contains("invalid value '-5' for '--points <N>'"), "{}", run.stderr);
 }

@@ -76,25 +76,34 @@ fn counted(count: usize, one: &str) -> String {
     if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
 }
 
-/// Lets negative numbers pass as values: those after `fis eval` get a blank in front, which nothing takes for an option.
+/// Options of numbers: what follows one is its value, whatever its sign.
+const OF_NUMBERS: [&str; 5] = ["--bound", "--bits", "--input-bits", "--max-knots", "--points"];
+
+/// Lets negative numbers pass as values: those after `fis eval` get a blank in front, which nothing takes for an option, and those after an
+/// option are joined to it.
 ///
 /// The parser of the command line knows `-1.4`, but neither `-.5` nor `-1e-3` nor `-inf`.
-pub(super) fn shield_numbers(mut args: Vec<OsString>) -> Vec<OsString> {
-    let is_eval =
-        args.get(1).is_some_and(|word| word == "fis") && args.get(2).is_some_and(|word| word == "eval");
-    if !is_eval {
+pub(super) fn shield_numbers(args: Vec<OsString>) -> Vec<OsString> {
+    if args.get(1).is_none_or(|word| word != "fis") {
         return args;
     }
-    for word in args.iter_mut().skip(3) {
-        if word == "--" {
-            break;
-        }
+    let is_eval = args.get(2).is_some_and(|word| word == "eval");
+    let mut shielded: Vec<OsString> = Vec::with_capacity(args.len());
+    let mut is_past = false;
+    for (at, word) in args.into_iter().enumerate() {
+        is_past |= word == "--";
         let number = word.to_str().filter(|text| text.starts_with('-') && text.parse::<f64>().is_ok());
-        if let Some(text) = number {
-            *word = format!(" {text}").into();
+        let Some(text) = number.filter(|_| at >= 3 && !is_past) else {
+            shielded.push(word);
+            continue;
+        };
+        match shielded.last_mut().filter(|last| OF_NUMBERS.iter().any(|option| *last == option)) {
+            Some(option) => option.push(format!("={text}")),
+            None if is_eval => shielded.push(format!(" {text}").into()),
+            None => shielded.push(word),
         }
     }
-    args
+    shielded
 }
 
 #[cfg(test)]
@@ -112,6 +121,16 @@ mod tests {
             shielded("mmsim fis eval f -1e-3 -.5 -inf -x 2 --json -- -1"),
             "mmsim|fis|eval|f| -1e-3| -.5| -inf|-x|2|--json|--|-1",
             "numbers before --"
+        );
+        assert_eq!(
+            shielded("mmsim fis eval f --bound -.5 -1"),
+            "mmsim|fis|eval|f|--bound=-.5| -1",
+            "the value of an option"
+        );
+        assert_eq!(
+            shielded("mmsim fis plot f --bits -1 -1"),
+            "mmsim|fis|plot|f|--bits=-1|-1",
+            "joined alone"
         );
         assert_eq!(shielded("mmsim run -1"), "mmsim|run|-1", "nowhere else");
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use mm_fis::System;
-use mm_fis::compile::{CompiledSurface, CompiledSurface2, Origin, Q15};
+use mm_fis::compile::{CompiledSurface, CompiledSurface2, Origin, Q15, Request};
 
 use super::super::{Exit, complain, print};
 use super::engines::{self, Evaluator, Fixed, Table, TableArgs};
@@ -78,6 +78,9 @@ fn compiled(args: &CompileArgs) -> Result<Exit, Exit> {
     let named = |error: &dyn std::fmt::Display| refuse(&format_args!("{}: {error}", loaded.name));
     let (compiled, report) = match args.to {
         Fixed::Q15 => {
+            let mut idle = args.table.given();
+            idle.extend(args.which.is_some().then_some("--which"));
+            engines::warn_idle(&idle, "--to surface");
             let rules = Q15::compile(system).map_err(|error| named(&error))?;
             let report = if args.quiet { String::new() } else { report_of_rules(system, &args.table) };
             (Compiled::Rules(rules), report)
@@ -111,21 +114,33 @@ fn compiled(args: &CompileArgs) -> Result<Exit, Exit> {
 
 /// The language asked for, or that of the file's ending.
 fn language(args: &CompileArgs) -> Result<Language, Exit> {
-    if let Some(language) = args.lang {
-        return Ok(language);
-    }
     let Some(path) = args.output.as_ref().filter(|path| path.as_os_str() != STDIN) else {
-        return Ok(Language::Rust);
+        return Ok(args.lang.unwrap_or(Language::Rust));
     };
     let ending = path.extension().and_then(std::ffi::OsStr::to_str).unwrap_or("").to_lowercase();
-    match ending.as_str() {
-        "rs" => Ok(Language::Rust),
-        "h" | "c" | "hpp" => Ok(Language::C),
-        "toml" => Ok(Language::Toml),
-        _ => Err(refuse(&format_args!(
-            "no language is known by the ending of {}: expected .rs, .h, .c or .toml, or --lang",
-            path.display()
+    let by_ending = match ending.as_str() {
+        "rs" => Some(Language::Rust),
+        "h" | "c" | "hpp" => Some(Language::C),
+        "toml" => Some(Language::Toml),
+        _ => None,
+    };
+    match (args.lang, by_ending) {
+        (Some(wanted), Some(other)) if wanted != other => Err(refuse(&format_args!(
+            "--lang {} contradicts the ending of {}: expected {}",
+            wanted.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned()),
+            path.display(),
+            match wanted {
+                Language::Rust => ".rs",
+                Language::C => ".h or .c",
+                Language::Toml => ".toml",
+            }
         ))),
+        (wanted, found) => wanted.or(found).ok_or_else(|| {
+            refuse(&format_args!(
+                "no language is known by the ending of {}: expected .rs, .h, .c or .toml, or --lang",
+                path.display()
+            ))
+        }),
     }
 }
 
@@ -178,7 +193,7 @@ fn text(
 
 /// The command line that makes the same again; the folder of the result is nobody's business.
 fn command(args: &CompileArgs) -> String {
-    let TableArgs { bits, bound, input_bits, max_knots } = args.table;
+    let Request { bits, bound, input_bits, max_knots } = args.table.request();
     let file_name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
     let input = file_name(Path::new(&args.file.file)).unwrap_or_else(|| args.file.file.clone());
     let mut words: Vec<String> = ["mmsim", "fis", "compile"].map(str::to_owned).into();

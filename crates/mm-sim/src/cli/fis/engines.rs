@@ -6,6 +6,8 @@ use mm_control::fuzzy::{FuzzyError, Inference, Sampling};
 use mm_fis::compile::{CompileError, CompiledSurface, CompiledSurface2, Q15, Request};
 use mm_fis::{Accuracy, Engine, System};
 
+use super::super::complain;
+
 /// Samples of an output set where an exact centroid is not to be had: for a table of one input, and of two.
 const SAMPLES_OF_ONE: u32 = 2001;
 const SAMPLES_OF_TWO: u32 = 401;
@@ -13,30 +15,54 @@ const SAMPLES_OF_TWO: u32 = 401;
 /// What a compiled table is to be.
 #[derive(Debug, Clone, Copy, Args)]
 pub(super) struct TableArgs {
-    /// Bits of a knot of a compiled surface, 8 to 16.
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(8..=16))]
-    pub(super) bits: u32,
+    /// Bits of a knot of a compiled surface, 8 to 16. Default: 16.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=16))]
+    pub(super) bits: Option<u32>,
     /// Largest error of a compiled surface, in output units. Default: 2^-10 of half the output's range for one input, 2^-8 for two, there
     /// doubled until it is met.
     #[arg(long, value_name = "ERROR", value_parser = bound, allow_negative_numbers = true)]
     pub(super) bound: Option<f64>,
-    /// Bits to which each of two inputs of a compiled surface is rounded, 8 to 12.
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(8..=12))]
-    pub(super) input_bits: u32,
-    /// Most knots of a compiled surface.
-    #[arg(long, value_name = "N", default_value_t = 16_384)]
-    pub(super) max_knots: usize,
+    /// Bits to which each of two inputs of a compiled surface is rounded, 8 to 12. Default: 10.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=12))]
+    pub(super) input_bits: Option<u32>,
+    /// Most knots of a compiled surface. Default: 16384.
+    #[arg(long, value_name = "N")]
+    pub(super) max_knots: Option<usize>,
 }
 
 fn bound(text: &str) -> Result<f64, String> {
-    let bound: f64 = text.parse().map_err(|_| "expected a number".to_owned())?;
-    if bound > 0.0 && bound.is_finite() { Ok(bound) } else { Err("expected a number above 0".to_owned()) }
+    let bound = text.parse::<f64>().ok().filter(|bound| *bound > 0.0 && bound.is_finite());
+    bound.ok_or_else(|| "expected a number above 0".to_owned())
 }
 
 impl TableArgs {
     /// The same for the compiler.
-    pub(super) const fn request(&self) -> Request {
-        Request { bound: self.bound, bits: self.bits, input_bits: self.input_bits, max_knots: self.max_knots }
+    pub(super) fn request(&self) -> Request {
+        Request {
+            bound: self.bound,
+            bits: self.bits.unwrap_or(16),
+            input_bits: self.input_bits.unwrap_or(10),
+            max_knots: self.max_knots.unwrap_or(16_384),
+        }
+    }
+
+    /// The options that were given.
+    pub(super) fn given(&self) -> Vec<&'static str> {
+        let all = [
+            ("--bits", self.bits.is_some()),
+            ("--bound", self.bound.is_some()),
+            ("--input-bits", self.input_bits.is_some()),
+            ("--max-knots", self.max_knots.is_some()),
+        ];
+        all.into_iter().filter(|(_, is_given)| *is_given).map(|(option, _)| option).collect()
+    }
+}
+
+/// Warns of options that were given to no effect.
+pub(super) fn warn_idle(options: &[&str], needed: &str) {
+    if !options.is_empty() {
+        let verb = if options.len() == 1 { "matters" } else { "matter" };
+        complain(&format_args!("warning: {} {verb} only with `{needed}`", options.join(" and ")));
     }
 }
 

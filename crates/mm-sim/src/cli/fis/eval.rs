@@ -15,6 +15,9 @@ use super::{FileArg, Places};
 /// Samples where an exact centroid is not to be had.
 const FINE: u32 = 10_001;
 
+/// Said where they are given in vain.
+const SAMPLES_IDLE: &str = "warning: --points and --sampling matter only with `--engine sampled`";
+
 /// What `eval` takes.
 #[derive(Debug, Clone, Args)]
 pub(in super::super) struct EvalArgs {
@@ -97,6 +100,7 @@ fn number(text: &str) -> Result<f64, String> {
 }
 
 fn run(args: &EvalArgs, system: &System, values: &[f64]) -> Result<Exit, Exit> {
+    warn(args);
     let work = |evaluate: &mut Evaluator<'_>| {
         let mut run = Run::new(args, system);
         let exit = run.all(evaluate, values);
@@ -123,6 +127,17 @@ fn run(args: &EvalArgs, system: &System, values: &[f64]) -> Result<Exit, Exit> {
     })
 }
 
+/// Warns of options that the engine does not heed.
+fn warn(args: &EvalArgs) {
+    if args.engine != EngineKind::Surface {
+        engines::warn_idle(&args.table.given(), "--engine surface");
+    }
+    let is_set = args.points.is_some() || args.sampling.is_some();
+    if is_set && matches!(args.engine, EngineKind::Q15 | EngineKind::Surface) {
+        complain(&SAMPLES_IDLE);
+    }
+}
+
 /// How the outputs are to be found, and what about it the user may not expect.
 fn accuracy(args: &EvalArgs, system: &System) -> Accuracy {
     let is_set = args.points.is_some() || args.sampling.is_some();
@@ -137,7 +152,7 @@ fn accuracy(args: &EvalArgs, system: &System) -> Accuracy {
         _ if has_samples => Accuracy::Sampled(args.sampling()),
         _ => {
             if is_set {
-                complain(&"warning: --points and --sampling matter only with `--engine sampled`");
+                complain(&SAMPLES_IDLE);
             }
             Accuracy::Exact
         }
@@ -266,7 +281,7 @@ impl<'a> Run<'a> {
             });
             format!("{}{object}", if self.done == 1 { "\n" } else { ",\n" })
         } else {
-            let words: Vec<String> = inputs.iter().chain(&outputs).map(ToString::to_string).collect();
+            let words: Vec<String> = inputs.iter().chain(&outputs).map(|value| shown(*value)).collect();
             format!("{}\n", words.join(" "))
         };
         self.write(&text)
@@ -308,7 +323,14 @@ fn failed(error: &std::io::Error) -> Exit {
     Exit::Failed
 }
 
-/// Numbers as JSON, which has no NaN.
+/// The shortest digits that read back to the same bits; with an exponent instead of many zeros.
+fn shown(value: f64) -> String {
+    let size = value.abs();
+    let is_plain = size <= 0.0 || !size.is_finite() || (1e-7..1e16).contains(&size);
+    if is_plain { value.to_string() } else { format!("{value:e}") }
+}
+
+/// Numbers as JSON, which has neither NaN nor infinite ones.
 fn numbers(values: &[f64]) -> Vec<Value> {
     values.iter().map(|&value| value.into()).collect()
 }
@@ -319,6 +341,7 @@ fn clamped(system: &System, inputs: &[f64]) -> String {
     outside.map_or_else(String::new, |(input, x)| {
         let (lo, hi) = input.range;
         let end = if *x < lo { lo } else { hi };
+        let x = shown(*x);
         format!("input `{}` = {x} is outside its range, [{lo}, {hi}]; it is taken as {end}", input.name)
     })
 }

@@ -1,7 +1,7 @@
 //! `mmsim fis plot`: a picture of a fuzzy system.
 
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use mm_control::fuzzy::{FuzzyError, MembershipFunction};
@@ -34,9 +34,9 @@ pub(in super::super) struct PlotArgs {
     /// File for the picture, or - for standard output. Default: NAME.svg here.
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Inputs to vary, counted from 1: one for curves, two for maps; the others stay in the middle. Default: the first two.
-    #[arg(long, value_name = "N[,M]", value_delimiter = ',')]
-    inputs: Vec<usize>,
+    /// Inputs to vary, by name or counted from 1: one for curves, two for maps; the others stay in the middle. Default: the first two.
+    #[arg(long, value_name = "INPUT[,INPUT]", value_delimiter = ',')]
+    inputs: Vec<String>,
     /// Draw curves as a fixed-point engine has them as well.
     #[arg(long, value_enum, value_name = "ENGINE")]
     overlay: Option<Fixed>,
@@ -50,6 +50,10 @@ pub(super) fn plot(args: &PlotArgs) -> Exit {
 }
 
 fn drawn(args: &PlotArgs) -> Result<Exit, Exit> {
+    check_ending(args.output.as_deref())?;
+    if args.overlay != Some(Fixed::Surface) {
+        engines::warn_idle(&args.table.given(), "--overlay surface");
+    }
     let loaded = file::load(&args.file.file)?;
     let axes = axes(args, &loaded.system)?;
     let refuse = |error: &dyn std::fmt::Display| {
@@ -80,6 +84,21 @@ fn drawn(args: &PlotArgs) -> Result<Exit, Exit> {
     Ok(print(&format!("picture in {}", path.display())))
 }
 
+/// Refuses the ending of another kind of picture.
+fn check_ending(path: Option<&Path>) -> Result<(), Exit> {
+    let Some(path) = path else { return Ok(()) };
+    match path.extension() {
+        Some(ending) if !ending.eq_ignore_ascii_case("svg") => {
+            complain(&format_args!(
+                "error: pictures are written as SVG, not as {}: expected a name that ends in .svg, or -",
+                path.display()
+            ));
+            Err(Exit::Usage)
+        }
+        _ => Ok(()),
+    }
+}
+
 /// The inputs to vary, counted from 0: one or two.
 fn axes(args: &PlotArgs, system: &System) -> Result<Vec<usize>, Exit> {
     let count = system.inputs.len();
@@ -90,14 +109,21 @@ fn axes(args: &PlotArgs, system: &System) -> Result<Vec<usize>, Exit> {
     if args.inputs.is_empty() {
         return Ok((0..count.min(2)).collect());
     }
-    if args.inputs.len() > 2 || args.inputs.first() == args.inputs.get(1) {
+    let axis = |wanted: &String| {
+        let by_name = system.inputs.iter().position(|input| input.name == *wanted);
+        let by_number = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|axis| *axis < count);
+        by_name.or_else(by_number).ok_or_else(|| {
+            let names =
+                system.inputs.iter().zip(1..).map(|(input, number)| format!("{number} `{}`", input.name));
+            let names = names.collect::<Vec<_>>().join(", ");
+            refuse(format!("there is no input `{wanted}`: expected one of {names} in --inputs"))
+        })
+    };
+    let axes = args.inputs.iter().map(axis).collect::<Result<Vec<_>, _>>()?;
+    if axes.len() > 2 || axes.first() == axes.get(1) {
         return Err(refuse("expected one input or two different ones in --inputs".to_owned()));
     }
-    let axis = |number: &usize| {
-        let axis = number.checked_sub(1).filter(|axis| *axis < count);
-        axis.ok_or_else(|| refuse(format!("there is no input {number}: expected 1 to {count} in --inputs")))
-    };
-    args.inputs.iter().map(axis).collect()
+    Ok(axes)
 }
 
 /// A name that a file of pictures can hold.
