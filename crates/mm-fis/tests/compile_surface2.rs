@@ -111,7 +111,8 @@ fn a_fuzzy_system_of_two_inputs() {
 #[test]
 fn what_cannot_be_met_is_refused() {
     let jump = |x: &[f64]| if x[0] + x[1] > 0.1 { 0.5 } else { -0.5 };
-    let refused = CompiledSurface2::compile("jump", &jump, SQUARE, &bits(8));
+    let request = Request { bound: Some(0.01), ..bits(8) };
+    let refused = CompiledSurface2::compile("jump", &jump, SQUARE, &request);
     assert!(matches!(refused, Err(CompileError::Bound { .. })), "{refused:?}");
     let hole = |x: &[f64]| if x[0] > 0.5 { f64::INFINITY } else { x[1] };
     let refused = CompiledSurface2::compile("hole", &hole, SQUARE, &bits(8));
