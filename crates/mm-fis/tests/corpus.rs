@@ -101,6 +101,9 @@ fn spot_checks() {
     assert_eq!((linear.kind, linear.and), (Kind::Sugeno, And::Prod), "MATLAB's defaults of Sugeno");
     assert_eq!(linear.outputs[0].terms[2].shape, Shape::Linear(vec![-0.15, 0.0, 3.0]), "linear");
     assert_eq!(set(&good("fuzzylite.fis"), 0, 0), Shape::Set(Mf::LinearZ([0.0, 1.0])), "a falling ramp");
+    let open = good("open_sides.fis");
+    assert_eq!(set(&open, 0, 0), Shape::Set(Mf::LinearZ([30.0, 50.0])), "open below");
+    assert_eq!(set(&open, 0, 2), Shape::Set(Mf::LinearS([50.0, 70.0])), "open above");
     let minimal = good("minimal.fis");
     assert_eq!((minimal.inputs[0].name.as_str(), minimal.rules[0].weight), ("input1", 0.0), "minimal");
     let brackets = good("brackets.fcl");

@@ -101,6 +101,19 @@ impl<'a> Scanner<'a> {
 
     /// Takes `[1 2, 3]`.
     pub(super) fn vector(&mut self, report: &mut Report) -> Option<Vec<Number<'a>>> {
+        self.vector_of(number, report)
+    }
+
+    /// The same of numbers that may be infinite.
+    pub(super) fn unbounded_vector(&mut self, report: &mut Report) -> Option<Vec<Number<'a>>> {
+        self.vector_of(unbounded, report)
+    }
+
+    fn vector_of(
+        &mut self,
+        number: impl Fn(Piece<'a>, &mut Report) -> Option<Number<'a>>,
+        report: &mut Report,
+    ) -> Option<Vec<Number<'a>>> {
         if !self.takes('[') {
             report.add_expected(self.rest(), self.found(), "`[`");
             return None;
@@ -203,4 +216,14 @@ pub(crate) fn number<'a>(word: Piece<'a>, report: &mut Report) -> Option<Number<
             None
         }
     }
+}
+
+/// Reads a number or `Inf`, with or without a sign.
+fn unbounded<'a>(word: Piece<'a>, report: &mut Report) -> Option<Number<'a>> {
+    let bare = word.text.strip_prefix(['+', '-']).unwrap_or(word.text);
+    if bare.eq_ignore_ascii_case("inf") {
+        let value = if word.text.starts_with('-') { f64::NEG_INFINITY } else { f64::INFINITY };
+        return Some(Number { value, place: word });
+    }
+    number(word, report)
 }

@@ -3,7 +3,7 @@
 use super::keys::Keys;
 use super::lines::{Entry, Section};
 use super::names::{count, form};
-use super::scan::{Scanner, ends};
+use super::scan::{Number, Scanner, ends};
 use crate::read::{Piece, Report};
 use crate::{Shape, Term, Variable};
 
@@ -125,7 +125,8 @@ fn term(entry: Entry<'_>, role: Role, report: &mut Report) -> Option<Term> {
     // MATLAB writes the comma, others a blank.
     let _ = scanner.takes(',');
     let start = scanner.rest().start;
-    let numbers = scanner.vector(report)?;
+    let is_open = !matches!(role, Role::SugenoOutput(_)) && shape.trim().eq_ignore_ascii_case("trapmf");
+    let numbers = if is_open { scanner.unbounded_vector(report)? } else { scanner.vector(report)? };
     let stop = scanner.rest();
     scanner.finish(report)?;
     let (_, list) = entry.value.split_at(start.saturating_sub(entry.value.start));
@@ -135,7 +136,10 @@ fn term(entry: Entry<'_>, role: Role, report: &mut Report) -> Option<Term> {
         Role::Input | Role::MamdaniOutput => None,
     };
     let shape = match consequent {
-        None => Shape::Set(form((&shape, place), report)?.make(&numbers, list, report)?),
+        None => {
+            let (shape, numbers) = without_open_side(&shape, &numbers, report)?;
+            Shape::Set(form((shape, place), report)?.make(numbers, list, report)?)
+        }
         Some(inputs) => {
             let linear = match shape.trim().to_lowercase().as_str() {
                 "constant" => false,
@@ -160,4 +164,26 @@ fn term(entry: Entry<'_>, role: Role, report: &mut Report) -> Option<Term> {
         }
     };
     Some(Term { name, shape })
+}
+
+/// A trapezoid with an open side, `[-Inf -Inf c d]` or `[a b Inf Inf]`, as the shape that it is; reports other infinite numbers.
+fn without_open_side<'a, 'b>(
+    shape: &'b str,
+    numbers: &'b [Number<'a>],
+    report: &mut Report,
+) -> Option<(&'b str, &'b [Number<'a>])> {
+    let is_below = |number: &Number<'_>| number.value <= f64::NEG_INFINITY;
+    let is_above = |number: &Number<'_>| number.value >= f64::INFINITY;
+    let (shape, numbers) = match numbers {
+        [a, b, finite @ ..] if finite.len() == 2 && is_below(a) && is_below(b) => ("linzmf", finite),
+        [finite @ .., c, d] if finite.len() == 2 && is_above(c) && is_above(d) => ("linsmf", finite),
+        _ => (shape, numbers),
+    };
+    match numbers.iter().find(|number| !number.value.is_finite()) {
+        Some(number) => {
+            report.add_found(number.place, "a finite number, `-Inf -Inf` in front or `Inf Inf` at the end");
+            None
+        }
+        None => Some((shape, numbers)),
+    }
 }
