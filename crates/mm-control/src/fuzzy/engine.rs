@@ -3,7 +3,7 @@
 use super::activation::OutputSet;
 use super::firing::{Antecedent, clamped, degree_count, fuzzify, strength_of_one};
 use super::tables::{
-    Aggregation, Defuzzifier, Inference, MamdaniTables, Rule, Sampling, Variable, check_rules,
+    Aggregation, Defuzzifier, Inference, MamdaniTables, Rule, Sampling, Variable, check_lengths, check_rules,
 };
 use super::{FuzzyError, exact, sampled};
 use mm_model::Real;
@@ -162,12 +162,7 @@ impl<'a, T: Real> Mamdani<'a, T> {
         workspace: &mut [T],
     ) -> Result<Inference, FuzzyError> {
         let tables = self.tables;
-        if inputs.len() != tables.inputs.len() {
-            return Err(FuzzyError::Length("inputs"));
-        }
-        if outputs.len() != tables.outputs.len() {
-            return Err(FuzzyError::Length("outputs"));
-        }
+        check_lengths((inputs.len(), tables.inputs.len()), (outputs.len(), tables.outputs.len()))?;
         let (degrees, strengths) = workspace
             .split_at_mut_checked(self.degrees)
             .filter(|(_, rest)| rest.len() >= self.strengths)

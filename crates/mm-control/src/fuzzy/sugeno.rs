@@ -2,7 +2,9 @@
 
 use super::FuzzyError;
 use super::firing::{Antecedent, fuzzify};
-use super::tables::{Consequent, Inference, SugenoOutput, SugenoTables, check_range, check_rules};
+use super::tables::{
+    Consequent, Inference, SugenoOutput, SugenoTables, check_lengths, check_range, check_rules,
+};
 use mm_model::Real;
 
 /// Takagi-Sugeno-Kang inference: rules conclude numbers or linear functions of the inputs.
@@ -116,12 +118,7 @@ impl<'a, T: Real> Sugeno<'a, T> {
         workspace: &mut [T],
     ) -> Result<Inference, FuzzyError> {
         let tables = self.tables;
-        if inputs.len() != tables.inputs.len() {
-            return Err(FuzzyError::Length("inputs"));
-        }
-        if outputs.len() != tables.outputs.len() {
-            return Err(FuzzyError::Length("outputs"));
-        }
+        check_lengths((inputs.len(), tables.inputs.len()), (outputs.len(), tables.outputs.len()))?;
         let degrees = workspace.get_mut(..self.degrees).ok_or(FuzzyError::Length("workspace"))?;
         let mut met = fuzzify(tables.inputs, inputs, degrees)?;
         for (position, (output, variable)) in outputs.iter_mut().zip(tables.outputs).enumerate() {

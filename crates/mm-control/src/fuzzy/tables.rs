@@ -216,6 +216,18 @@ pub(super) fn check_range<T: Real>((lo, hi): (T, T), name: &'static str) -> Resu
     if lo >= hi { Err(FuzzyError::Inverted(name)) } else { Ok(()) }
 }
 
+/// Checks that a call brings as many inputs and outputs, each given first, as the system has.
+#[inline]
+pub(super) const fn check_lengths(inputs: (usize, usize), outputs: (usize, usize)) -> Result<(), FuzzyError> {
+    if inputs.0 != inputs.1 {
+        return Err(FuzzyError::Length("inputs"));
+    }
+    if outputs.0 != outputs.1 {
+        return Err(FuzzyError::Length("outputs"));
+    }
+    Ok(())
+}
+
 /// Checks the rules of a system with the given numbers of terms for each input and each output.
 pub(super) fn check_rules<T: Real>(
     rules: &[Rule<'_, T>],
