@@ -41,6 +41,7 @@ mod outer;
 mod reaching;
 mod signals;
 mod stack;
+pub mod supervisor;
 mod symmetric3;
 
 pub use error::{ControlError, SetupError};
@@ -50,6 +51,7 @@ pub use outer::{OuterLoop, OuterOutput, OuterParams};
 pub use reaching::required_gain;
 pub use signals::{Input, Output, Reference, Signals, Status};
 pub use stack::{ControlStack, ControlState, StackParams};
+pub use supervisor::{Command, SupervisedStack, SupervisedState, SupervisorParams, Timing};
 
 /// The example of the README, compiled and run.
 #[cfg(doctest)]
