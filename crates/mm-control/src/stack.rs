@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::estimator::{Estimate, Estimator, Measurement, Memory, Stage};
 use crate::fuzzy::Bundled;
-use crate::laws::{Drive, FuzzyTerm, Gains, Law, Memory as LawMemory, Tracking};
+use crate::laws::{Drive, FuzzyTerm, Gains, InnerLaw, Law, LawMemory, Tracking};
 use crate::observer::{MomentumObserver, ObserverState};
 use crate::outer::{OuterLoop, OuterOutput, OuterParams};
 use crate::{ControlError, Input, Output, Reference, SetupError, Signals, Status};
@@ -76,10 +76,10 @@ pub struct StackParams<T, const N: usize> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ControlStack<T: Real, const N: usize> {
+pub struct ControlStack<T: Real, const N: usize, L = Law<T, N>> {
     robot: Robot<T, N>,
     outer: OuterLoop<T, N>,
-    law: Law<T, N>,
+    law: L,
     observer: Option<MomentumObserver<T, N>>,
     gains: Gains<T, N>,
     period: T,
@@ -119,13 +119,22 @@ where
         let law = Law::with_fuzzy(kind, &robot, &params.gains, term)?;
         Self::with_law(robot, law, params)
     }
+}
 
-    fn with_law(robot: Robot<T, N>, law: Law<T, N>, params: StackParams<T, N>) -> Result<Self, SetupError> {
+impl<T: Real, const N: usize, L: InnerLaw<T, N>> ControlStack<T, N, L>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    /// A stack around one law of a type known beforehand, one of [`laws`](crate::laws) or the caller's own: nothing of the others is linked.
+    ///
+    /// # Errors
+    /// The first parameter that does not work, by name.
+    pub fn with_law(robot: Robot<T, N>, law: L, params: StackParams<T, N>) -> Result<Self, SetupError> {
         let StackParams { period, outer, gains, estimator } = params;
         check::positive(period, "control_period_s")?;
         gains.check()?;
         let estimator = Stage::try_new(estimator, period)?;
-        let learns = matches!(law, Law::Bfsmc(_)) && gains.observer_bandwidth > T::ZERO;
+        let learns = law.learns() && gains.observer_bandwidth > T::ZERO;
         if learns && gains.observer_bandwidth * period > T::ONE {
             return Err(mm_model::ParamError::OutOfRange("observer_bandwidth_1_s").into());
         }
@@ -188,7 +197,7 @@ where
 
     /// The inner law.
     #[must_use]
-    pub const fn law(&self) -> &Law<T, N> {
+    pub const fn law(&self) -> &L {
         &self.law
     }
 

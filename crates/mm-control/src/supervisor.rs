@@ -6,6 +6,7 @@ pub use params::SupervisorParams;
 
 use mm_model::{Mechanism, Real, Robot, Torque};
 
+use crate::laws::{InnerLaw, Law};
 use crate::{ControlStack, ControlState, Input, Measurement, Output, Reference, SetupError};
 
 /// What the supervisor does with an update.
@@ -117,8 +118,8 @@ pub struct Command<T, const N: usize> {
 
 /// A control stack under a supervisor: never an error, always a torque that can be applied.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SupervisedStack<T: Real, const N: usize> {
-    stack: ControlStack<T, N>,
+pub struct SupervisedStack<T: Real, const N: usize, L = Law<T, N>> {
+    stack: ControlStack<T, N, L>,
     params: SupervisorParams<T, N>,
 }
 
@@ -131,7 +132,7 @@ pub struct SupervisedState<T, const N: usize> {
     torque: Torque<T, N>,
 }
 
-impl<T: Real, const N: usize> SupervisedStack<T, N>
+impl<T: Real, const N: usize, L: InnerLaw<T, N>> SupervisedStack<T, N, L>
 where
     Robot<T, N>: Mechanism<T, N>,
 {
@@ -139,7 +140,7 @@ where
     ///
     /// # Errors
     /// The first parameter that does not work, by name.
-    pub fn try_new(stack: ControlStack<T, N>, params: SupervisorParams<T, N>) -> Result<Self, SetupError> {
+    pub fn try_new(stack: ControlStack<T, N, L>, params: SupervisorParams<T, N>) -> Result<Self, SetupError> {
         Ok(Self { stack, params })
     }
 
@@ -151,7 +152,7 @@ where
 
     /// The stack.
     #[must_use]
-    pub const fn stack(&self) -> &ControlStack<T, N> {
+    pub const fn stack(&self) -> &ControlStack<T, N, L> {
         &self.stack
     }
 

@@ -18,7 +18,7 @@ mod common {
 
 use common::random::Random;
 use mm_control::fuzzy::{Curve, FuzzyError, MamdaniTables, SMOOTH, THESIS};
-use mm_control::laws::{FuzzyTerm, Misprints};
+use mm_control::laws::{FuzzyTerm, InnerLaw, Misprints};
 use mm_control::{
     Bfsmc, ControlStack, Estimator, Gains, Input, Law, LawKind, OuterParams, Reference, SetupError,
     StackParams,

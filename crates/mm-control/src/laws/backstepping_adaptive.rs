@@ -1,8 +1,8 @@
 //! `backstepping-adaptive`: the inertia of every body and a force on every channel, learned on line.
 
-use mm_model::{Force, Mechanism, Real, Robot, Velocity};
+use mm_model::{Force, Mechanism, ParamError, Real, Robot, Velocity};
 
-use super::{Drive, EffectiveInertia, Gains, Memory, Tracking};
+use super::{Drive, EffectiveInertia, Gains, InnerLaw, LawMemory, Tracking};
 
 /// Adaptive backstepping with factors theta on the inertias of base and links, and a learned force d_hat:
 ///
@@ -35,24 +35,34 @@ impl<T: Real, const N: usize> BacksteppingAdaptive<T, N>
 where
     Robot<T, N>: Mechanism<T, N>,
 {
-    pub(super) fn new(robot: &Robot<T, N>, gains: &Gains<T, N>) -> Self {
+    /// The law for a robot, with checked gains.
+    ///
+    /// # Errors
+    /// The first gain that does not work, by name.
+    pub fn try_new(robot: &Robot<T, N>, gains: &Gains<T, N>) -> Result<Self, ParamError> {
+        gains.check()?;
         let EffectiveInertia(inertia) = EffectiveInertia::of(robot);
         let by = |rate: Velocity<T, N>| {
             let Velocity { forward, yaw_rate, joints } = rate;
             inertia.zip(Force { forward, yaw: yaw_rate, joints }, |m, rate| m * rate)
         };
-        Self {
+        Ok(Self {
             damping: by(gains.damping),
             body_rate: gains.body_adaptation,
             body_factor: gains.body_factor,
             force_rate: inertia.scaled(gains.force_adaptation),
             limit: gains.learning_limit,
-        }
+        })
     }
+}
 
-    pub(super) fn drive(&self, at: &Tracking<'_, T, N>, memory: &Memory<T, N>) -> Drive<T, N> {
+impl<T: Real, const N: usize> InnerLaw<T, N> for BacksteppingAdaptive<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    fn drive(&self, at: &Tracking<'_, T, N>, memory: &LawMemory<T, N>) -> Drive<T, N> {
         let (mut base, mut links, learned) = match *memory {
-            Memory::Estimates { base, links, force } => (base, links, force),
+            LawMemory::Estimates { base, links, force } => (base, links, force),
             _ => (T::ONE, [T::ONE; N], Force::zero()),
         };
         let mut model = at.friction;
@@ -73,7 +83,7 @@ where
             equivalent: model,
             fuzzy: Force::zero(),
             learned: Some(learned),
-            memory: Some(Memory::Estimates { base, links, force: next }),
+            memory: Some(LawMemory::Estimates { base, links, force: next }),
         }
     }
 }

@@ -1,10 +1,11 @@
 //! `bfsmc`: the default law, a continuous fuzzy sliding mode that learns what disturbs it.
 
-use mm_model::{Force, Real, Velocity};
+use mm_model::{Force, Mechanism, Real, Robot, Velocity};
 
-use super::{FuzzyTerm, Gains};
+use super::fuzzy_term::opposes;
+use super::{FuzzyTerm, Gains, InnerLaw, RobustForce, SwitchingTerm};
 use crate::SetupError;
-use crate::fuzzy::{Bundled, FuzzyError, FuzzySystem};
+use crate::fuzzy::{Bundled, FuzzyError};
 
 /// The continuous law f = k_f phi(s / scale) - d_hat, with phi a fuzzy surface and d_hat a learned disturbance.
 ///
@@ -36,27 +37,33 @@ use crate::fuzzy::{Bundled, FuzzyError, FuzzySystem};
 /// Sampled with period dt: dt times the largest eigenvalue of M^-1 diag(slope) has to stay below 2 (the default gains keep the sum of
 /// all its eigenvalues at (2 + N) / 10 in the rest posture), L dt below 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bfsmc<T: 'static, const N: usize> {
+pub struct Bfsmc<T: 'static, const N: usize, F = FuzzyTerm<T>> {
     gain: Force<T, N>,
     per_scale: Velocity<T, N>,
-    term: FuzzyTerm<T>,
+    term: F,
 }
 
 impl<T: Real, const N: usize> Bfsmc<T, N> {
-    pub(super) fn try_new(gains: &Gains<T, N>) -> Result<Self, SetupError>
+    /// The law with the default surface.
+    ///
+    /// # Errors
+    /// The first gain that does not work, by name.
+    pub fn try_new(gains: &Gains<T, N>) -> Result<Self, SetupError>
     where
         T: Bundled,
     {
         Self::with_term(gains, FuzzyTerm::smooth()?)
     }
+}
 
+impl<T: Real, const N: usize, F: SwitchingTerm<T>> Bfsmc<T, N, F> {
     /// The law with a fuzzy system of the user's own. Its input range is what `s / scale` is clamped to.
     ///
     /// # Errors
     /// A gain, or a system that aids s somewhere: `rules` out of range.
-    pub fn with_term(gains: &Gains<T, N>, term: FuzzyTerm<T>) -> Result<Self, SetupError> {
+    pub fn with_term(gains: &Gains<T, N>, term: F) -> Result<Self, SetupError> {
         gains.check()?;
-        if !term.opposes() {
+        if !opposes(&term) {
             return Err(FuzzyError::OutOfRange("rules").into());
         }
         Ok(Self { gain: gains.fuzzy, per_scale: gains.fuzzy_scale.map(|scale| T::ONE / scale), term })
@@ -73,5 +80,21 @@ impl<T: Real, const N: usize> Bfsmc<T, N> {
         let (lo, hi) = self.term.input_range();
         let edge = self.term.evaluate(lo).abs().min(self.term.evaluate(hi).abs());
         self.gain.map(|gain| gain * edge)
+    }
+}
+
+impl<T: Real, const N: usize, F: SwitchingTerm<T>> InnerLaw<T, N> for Bfsmc<T, N, F>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    #[inline(always)]
+    fn switching_force(&self, s: &Velocity<T, N>) -> Option<RobustForce<T, N>> {
+        let force = self.force(s);
+        Some(RobustForce { total: force, fuzzy: force })
+    }
+
+    #[inline]
+    fn learns(&self) -> bool {
+        true
     }
 }

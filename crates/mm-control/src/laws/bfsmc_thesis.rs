@@ -1,8 +1,9 @@
 //! `bfsmc-thesis`: sign plus the fuzzy system of Appendix C, as printed.
 
-use mm_model::{Force, Real, RobotParams, Velocity};
+use mm_model::{Force, Mechanism, Real, Robot, RobotParams, Velocity};
 
-use super::{FuzzyTerm, Gains, RobustForce, channel_zip};
+use super::fuzzy_term::opposes;
+use super::{FuzzyTerm, Gains, InnerLaw, RobustForce, SwitchingTerm, channel_zip};
 use crate::SetupError;
 use crate::fuzzy::Bundled;
 
@@ -24,11 +25,11 @@ pub struct Misprints {
 ///
 /// [`Misprints`] puts back what the derivation here corrects; with them no reaching condition holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BfsmcThesis<T: 'static, const N: usize> {
+pub struct BfsmcThesis<T: 'static, const N: usize, F = FuzzyTerm<T>> {
     gain: Force<T, N>,
     fuzzy_gain: Force<T, N>,
     per_scale: Velocity<T, N>,
-    term: FuzzyTerm<T>,
+    term: F,
     opposes: bool,
     misprints: Misprints,
     /// 1/r and l/r, half the track over the wheel's radius: forces of torques at the wheels.
@@ -36,30 +37,32 @@ pub struct BfsmcThesis<T: 'static, const N: usize> {
 }
 
 impl<T: Real, const N: usize> BfsmcThesis<T, N> {
-    pub(super) fn try_new(robot: &RobotParams<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError>
+    /// The law with the rules of Appendix C.
+    ///
+    /// # Errors
+    /// The first gain that does not work, by name.
+    pub fn try_new(robot: &RobotParams<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError>
     where
         T: Bundled,
     {
         Self::with_term(robot, gains, FuzzyTerm::thesis()?)
     }
+}
 
+impl<T: Real, const N: usize, F: SwitchingTerm<T>> BfsmcThesis<T, N, F> {
     /// The law with a fuzzy system of the user's own instead of Appendix C.
     ///
     /// # Errors
     /// A gain.
-    pub fn with_term(
-        robot: &RobotParams<T, N>,
-        gains: &Gains<T, N>,
-        term: FuzzyTerm<T>,
-    ) -> Result<Self, SetupError> {
+    pub fn with_term(robot: &RobotParams<T, N>, gains: &Gains<T, N>, term: F) -> Result<Self, SetupError> {
         gains.check()?;
         let per_radius = T::ONE / robot.wheel_radius;
         Ok(Self {
             gain: gains.switching,
             fuzzy_gain: gains.fuzzy,
             per_scale: gains.fuzzy_scale.map(|scale| T::ONE / scale),
+            opposes: opposes(&term),
             term,
-            opposes: term.opposes(),
             misprints: gains.misprints,
             wheels: (per_radius, T::HALF * robot.track_width * per_radius),
         })
@@ -86,5 +89,15 @@ impl<T: Real, const N: usize> BfsmcThesis<T, N> {
         }
         let (per_radius, lever) = self.wheels;
         Force { forward: per_radius * (right + left), yaw: lever * (right - left), joints }
+    }
+}
+
+impl<T: Real, const N: usize, F: SwitchingTerm<T>> InnerLaw<T, N> for BfsmcThesis<T, N, F>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    #[inline(always)]
+    fn switching_force(&self, s: &Velocity<T, N>) -> Option<RobustForce<T, N>> {
+        Some(self.force(s))
     }
 }

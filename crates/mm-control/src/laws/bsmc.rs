@@ -1,8 +1,8 @@
 //! `bsmc`: backstepping with a sliding mode of sign, the baseline of the thesis.
 
-use mm_model::{Force, ParamError, Real, Velocity};
+use mm_model::{Force, Mechanism, ParamError, Real, Robot, Velocity};
 
-use super::{Gains, channel_zip};
+use super::{Gains, InnerLaw, RobustForce, channel_zip};
 
 /// The switching law of (4.30): f = -k sign(s), sign(0) = 0.
 ///
@@ -15,12 +15,27 @@ pub struct Bsmc<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Bsmc<T, N> {
-    pub(super) fn try_new(gains: &Gains<T, N>) -> Result<Self, ParamError> {
+    /// The law with checked gains.
+    ///
+    /// # Errors
+    /// The first gain that does not work, by name.
+    pub fn try_new(gains: &Gains<T, N>) -> Result<Self, ParamError> {
+        gains.check()?;
         Ok(Self { gain: gains.switching })
     }
 
     #[inline]
     pub(super) fn force(&self, s: &Velocity<T, N>) -> Force<T, N> {
         channel_zip(s, &self.gain, |s, k| -(k * s.sign()))
+    }
+}
+
+impl<T: Real, const N: usize> InnerLaw<T, N> for Bsmc<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    #[inline(always)]
+    fn switching_force(&self, s: &Velocity<T, N>) -> Option<RobustForce<T, N>> {
+        Some(RobustForce::plain(self.force(s)))
     }
 }

@@ -1,8 +1,8 @@
 //! `ctc`: computed torque.
 
-use mm_model::{Mechanism, Real, Robot, Velocity};
+use mm_model::{Mechanism, ParamError, Real, Robot, Velocity};
 
-use super::{Drive, Gains, Tracking};
+use super::{Drive, Gains, InnerLaw, LawMemory, Tracking};
 
 /// Computed torque on the quasi-velocities: f = M (nu_c' - Kv lag - Ki integral(lag)) + C nu + g + friction, lag = nu - nu_c.
 ///
@@ -22,14 +22,21 @@ pub struct Ctc<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Ctc<T, N> {
-    pub(super) const fn new(gains: &Gains<T, N>) -> Self {
-        Self { damping: gains.damping, stiffness: gains.stiffness }
+    /// The law with checked gains.
+    ///
+    /// # Errors
+    /// The first gain that does not work, by name.
+    pub fn try_new(gains: &Gains<T, N>) -> Result<Self, ParamError> {
+        gains.check()?;
+        Ok(Self { damping: gains.damping, stiffness: gains.stiffness })
     }
+}
 
-    pub(super) fn drive(&self, at: &Tracking<'_, T, N>) -> Drive<T, N>
-    where
-        Robot<T, N>: Mechanism<T, N>,
-    {
+impl<T: Real, const N: usize> InnerLaw<T, N> for Ctc<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    fn drive(&self, at: &Tracking<'_, T, N>, _memory: &LawMemory<T, N>) -> Drive<T, N> {
         let Tracking { robot, inertia, nu, .. } = at;
         let product = |a: Velocity<T, N>, b: Velocity<T, N>| a.zip(b, |a, b| a * b);
         let back = product(self.damping, at.lag).plus(product(self.stiffness, *at.lag_integral));

@@ -3,7 +3,7 @@
 use mm_model::{Force, Real, Velocity};
 
 use super::channel_zip;
-use crate::fuzzy::fixed::{self, Scaled, Surface1};
+use crate::fuzzy::fixed::{self, Evaluate, Scaled, Surface1};
 use crate::fuzzy::{Bundled, Curve, FuzzyError, FuzzySystem, MamdaniTables, Surface};
 
 /// Knots of the tabulated fuzzy surface.
@@ -91,31 +91,51 @@ impl<T: Real> FuzzyTerm<T> {
     }
 }
 
-impl<T: Real> FuzzyTerm<T> {
+/// A fuzzy system as the term of a law.
+pub trait SwitchingTerm<T: Real>: FuzzySystem<T> {
     /// The force of every channel, k times the output for the scaled sliding variable x.
+    #[must_use]
     #[inline]
-    pub(super) fn force<const N: usize>(&self, x: &Velocity<T, N>, k: &Force<T, N>) -> Force<T, N> {
+    fn force<const N: usize>(&self, x: &Velocity<T, N>, k: &Force<T, N>) -> Force<T, N> {
+        channel_zip(x, k, |x, k| k * self.evaluate(x))
+    }
+}
+
+impl<T: Real, const KNOTS: usize> SwitchingTerm<T> for Surface<T, KNOTS> {}
+impl<T: Real, const WORK: usize> SwitchingTerm<T> for Curve<'_, T, WORK> {}
+impl<T: Real, E: Evaluate> SwitchingTerm<T> for Scaled<T, E> {}
+
+impl<T: Real> SwitchingTerm<T> for FuzzyTerm<T> {
+    #[inline]
+    fn force<const N: usize>(&self, x: &Velocity<T, N>, k: &Force<T, N>) -> Force<T, N> {
         match self {
-            Self::Table(table) => channel_zip(x, k, |x, k| k * table.evaluate(x)),
+            Self::Table(table) => table.force(x, k),
             Self::Rules(rules) => out_of_line(rules, x, k),
             Self::Q15(rules) => out_of_line(rules, x, k),
             Self::Surface(surface) => out_of_line(surface, x, k),
         }
     }
+}
 
+impl<T: Real> FuzzyTerm<T> {
     /// Whether no input is answered with an output of its own sign, and zero with zero, up to rounding.
     ///
     /// Seen at 1,024 equally spaced inputs on either side of zero.
     #[must_use]
     pub fn opposes(&self) -> bool {
-        let rounding = T::from_u32(64) * T::EPSILON;
-        let (lo, hi) = self.input_range();
-        let against = |k: u32| {
-            let part = T::from_u32(k) / T::from_u32(1024);
-            self.evaluate(hi * part) <= rounding && self.evaluate(lo * part) >= -rounding
-        };
-        self.evaluate(T::ZERO).abs() <= rounding && lo < T::ZERO && hi > T::ZERO && (1..=1024).all(against)
+        opposes(self)
     }
+}
+
+/// See [`FuzzyTerm::opposes`].
+pub(super) fn opposes<T: Real>(term: &impl FuzzySystem<T>) -> bool {
+    let rounding = T::from_u32(64) * T::EPSILON;
+    let (lo, hi) = term.input_range();
+    let against = |k: u32| {
+        let part = T::from_u32(k) / T::from_u32(1024);
+        term.evaluate(hi * part) <= rounding && term.evaluate(lo * part) >= -rounding
+    };
+    term.evaluate(T::ZERO).abs() <= rounding && lo < T::ZERO && hi > T::ZERO && (1..=1024).all(against)
 }
 
 /// The force by what is no table of floating-point knots, out of line: it shall not grow the code of the usual case.

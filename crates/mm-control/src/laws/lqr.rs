@@ -3,7 +3,7 @@
 use mm_model::{Force, Mechanism, Real, Robot, Velocity};
 
 use super::riccati::{ChannelMatrix, StateFeedback};
-use super::{Drive, Gains, Tracking};
+use super::{Drive, Gains, InnerLaw, LawMemory, Tracking};
 use crate::SetupError;
 
 /// Linear state feedback, optimal for the robot linearized about its rest posture: with x = integral(lag), lag = nu - nu_c,
@@ -34,7 +34,12 @@ impl<T: Real, const N: usize> Lqr<T, N>
 where
     Robot<T, N>: Mechanism<T, N>,
 {
-    pub(super) fn try_new(robot: &Robot<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError> {
+    /// The law with checked gains.
+    ///
+    /// # Errors
+    /// The first gain that does not work, by name.
+    pub fn try_new(robot: &Robot<T, N>, gains: &Gains<T, N>) -> Result<Self, SetupError> {
+        gains.check()?;
         let rest = robot.inertia(&robot.posture(&robot.params().rest_posture));
         let inertia = ChannelMatrix::from_columns(|unit| robot.mass_product(&rest, unit));
         let inverse = ChannelMatrix::from_columns(|&Velocity { forward, yaw_rate, joints }| {
@@ -55,8 +60,13 @@ where
     pub const fn feedback(&self) -> &StateFeedback<T, N> {
         &self.feedback
     }
+}
 
-    pub(super) fn drive(&self, at: &Tracking<'_, T, N>) -> Drive<T, N> {
+impl<T: Real, const N: usize> InnerLaw<T, N> for Lqr<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    fn drive(&self, at: &Tracking<'_, T, N>, _memory: &LawMemory<T, N>) -> Drive<T, N> {
         let ahead = self.inertia.product(at.dnu_c).plus(self.gravity);
         let force = ahead
             .minus(self.feedback.position.product(at.lag_integral))

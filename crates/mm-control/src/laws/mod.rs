@@ -28,6 +28,7 @@ mod bsmc_sat;
 mod ctc;
 mod fuzzy_term;
 mod gains;
+mod inner;
 mod lqr;
 mod pid;
 mod riccati;
@@ -41,14 +42,15 @@ pub use bfsmc_thesis::{BfsmcThesis, Misprints};
 pub use bsmc::Bsmc;
 pub use bsmc_sat::BsmcSat;
 pub use ctc::Ctc;
-pub use fuzzy_term::FuzzyTerm;
+pub use fuzzy_term::{FuzzyTerm, SwitchingTerm};
 pub use gains::{EffectiveInertia, Gains};
+pub use inner::InnerLaw;
 pub use lqr::Lqr;
 pub use pid::Pid;
 pub use riccati::{ChannelMatrix, StateFeedback};
 pub use smc_decentralized::SmcDecentralized;
 pub use super_twisting::SuperTwisting;
-pub(crate) use tracking::{Drive, Memory, Tracking};
+pub use tracking::{Drive, LawMemory, Tracking};
 
 use mm_model::{Force, Mechanism, Real, Robot, Velocity};
 
@@ -157,6 +159,22 @@ pub struct RobustForce<T, const N: usize> {
     pub fuzzy: Force<T, N>,
 }
 
+impl<T: Real, const N: usize> RobustForce<T, N> {
+    /// No force.
+    #[must_use]
+    #[inline]
+    pub fn zero() -> Self {
+        Self::plain(Force::zero())
+    }
+
+    /// A force without a fuzzy share.
+    #[must_use]
+    #[inline]
+    pub fn plain(total: Force<T, N>) -> Self {
+        Self { total, fuzzy: Force::zero() }
+    }
+}
+
 impl<T: Real, const N: usize> Law<T, N>
 where
     Robot<T, N>: Mechanism<T, N>,
@@ -175,14 +193,14 @@ where
             LawKind::BsmcSat => Self::BsmcSat(BsmcSat::try_new(gains)?),
             LawKind::BfsmcThesis => Self::BfsmcThesis(BfsmcThesis::try_new(robot.params(), gains)?),
             LawKind::Bfsmc => Self::Bfsmc(Bfsmc::try_new(gains)?),
-            LawKind::Ctc => Self::Ctc(Ctc::new(gains)),
-            LawKind::Pid => Self::Pid(Pid::new(robot, gains)),
+            LawKind::Ctc => Self::Ctc(Ctc::try_new(gains)?),
+            LawKind::Pid => Self::Pid(Pid::try_new(robot, gains)?),
             LawKind::Lqr => Self::Lqr(Lqr::try_new(robot, gains)?),
             LawKind::SmcDecentralized => Self::SmcDecentralized(SmcDecentralized::try_new(gains)?),
             LawKind::BacksteppingAdaptive => {
-                Self::BacksteppingAdaptive(BacksteppingAdaptive::new(robot, gains))
+                Self::BacksteppingAdaptive(BacksteppingAdaptive::try_new(robot, gains)?)
             }
-            LawKind::SuperTwisting => Self::SuperTwisting(SuperTwisting::new(gains)),
+            LawKind::SuperTwisting => Self::SuperTwisting(SuperTwisting::try_new(gains)?),
         })
     }
 
@@ -223,39 +241,6 @@ where
         }
     }
 
-    /// The force that a switching law opposes to the sliding variable; none for a law that is no function of s alone.
-    #[must_use]
-    #[inline(always)]
-    pub fn switching_force(&self, s: &Velocity<T, N>) -> Option<RobustForce<T, N>> {
-        let plain = |total| Some(RobustForce { total, fuzzy: Force::zero() });
-        match self {
-            Self::Bsmc(law) => plain(law.force(s)),
-            Self::BsmcSat(law) => plain(law.force(s)),
-            Self::BfsmcThesis(law) => Some(law.force(s)),
-            Self::Bfsmc(law) => {
-                let force = law.force(s);
-                Some(RobustForce { total: force, fuzzy: force })
-            }
-            _ => None,
-        }
-    }
-
-    /// The force that the law applies, before the learned part of a momentum observer and the limits.
-    pub(crate) fn drive(&self, at: &Tracking<'_, T, N>, memory: &Memory<T, N>) -> Drive<T, N> {
-        match self {
-            Self::Ctc(law) => law.drive(at),
-            Self::Pid(law) => law.drive(at, memory),
-            Self::Lqr(law) => law.drive(at),
-            Self::SmcDecentralized(law) => law.drive(at),
-            Self::BacksteppingAdaptive(law) => law.drive(at, memory),
-            Self::SuperTwisting(law) => law.drive(at, memory),
-            Self::Bsmc(_) | Self::BsmcSat(_) | Self::BfsmcThesis(_) | Self::Bfsmc(_) => {
-                let none = RobustForce { total: Force::zero(), fuzzy: Force::zero() };
-                at.switching(self.switching_force(&at.sliding).unwrap_or(none))
-            }
-        }
-    }
-
     /// Largest force that the law surely opposes to a large s, channel by channel: the k_i of the reaching condition (4.44).
     /// None for a law without a switching gain.
     #[must_use]
@@ -268,6 +253,41 @@ where
             Self::SmcDecentralized(law) => Some(law.authority()),
             _ => None,
         }
+    }
+}
+
+impl<T: Real, const N: usize> InnerLaw<T, N> for Law<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    #[inline(always)]
+    fn switching_force(&self, s: &Velocity<T, N>) -> Option<RobustForce<T, N>> {
+        match self {
+            Self::Bsmc(law) => law.switching_force(s),
+            Self::BsmcSat(law) => law.switching_force(s),
+            Self::BfsmcThesis(law) => law.switching_force(s),
+            Self::Bfsmc(law) => law.switching_force(s),
+            _ => None,
+        }
+    }
+
+    fn drive(&self, at: &Tracking<'_, T, N>, memory: &LawMemory<T, N>) -> Drive<T, N> {
+        match self {
+            Self::Bsmc(law) => law.drive(at, memory),
+            Self::BsmcSat(law) => law.drive(at, memory),
+            Self::BfsmcThesis(law) => law.drive(at, memory),
+            Self::Bfsmc(law) => law.drive(at, memory),
+            Self::Ctc(law) => law.drive(at, memory),
+            Self::Pid(law) => law.drive(at, memory),
+            Self::Lqr(law) => law.drive(at, memory),
+            Self::SmcDecentralized(law) => law.drive(at, memory),
+            Self::BacksteppingAdaptive(law) => law.drive(at, memory),
+            Self::SuperTwisting(law) => law.drive(at, memory),
+        }
+    }
+
+    fn learns(&self) -> bool {
+        matches!(self, Self::Bfsmc(_))
     }
 }
 

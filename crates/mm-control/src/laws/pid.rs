@@ -1,8 +1,8 @@
 //! `pid`: joints by PID, the base by PID after partial feedback linearization.
 
-use mm_model::{Force, Mechanism, Real, Robot, Velocity};
+use mm_model::{Force, Mechanism, ParamError, Real, Robot, Velocity};
 
-use super::{Drive, EffectiveInertia, Gains, Memory, Tracking};
+use super::{Drive, EffectiveInertia, Gains, InnerLaw, LawMemory, Tracking};
 
 /// PID with lag = nu - nu_c as the rate of the controlled error x = integral(lag):
 ///
@@ -33,14 +33,29 @@ impl<T: Real, const N: usize> Pid<T, N>
 where
     Robot<T, N>: Mechanism<T, N>,
 {
-    pub(super) fn new(robot: &Robot<T, N>, gains: &Gains<T, N>) -> Self {
+    /// The law for a robot, with checked gains.
+    ///
+    /// # Errors
+    /// The first gain that does not work, by name.
+    pub fn try_new(robot: &Robot<T, N>, gains: &Gains<T, N>) -> Result<Self, ParamError> {
+        gains.check()?;
         let EffectiveInertia(inertia) = EffectiveInertia::of(robot);
-        Self { proportional: gains.stiffness, integral: gains.integral, derivative: gains.damping, inertia }
+        Ok(Self {
+            proportional: gains.stiffness,
+            integral: gains.integral,
+            derivative: gains.damping,
+            inertia,
+        })
     }
+}
 
-    pub(super) fn drive(&self, at: &Tracking<'_, T, N>, memory: &Memory<T, N>) -> Drive<T, N> {
+impl<T: Real, const N: usize> InnerLaw<T, N> for Pid<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    fn drive(&self, at: &Tracking<'_, T, N>, memory: &LawMemory<T, N>) -> Drive<T, N> {
         let Tracking { robot, inertia, nu, .. } = at;
-        let sum = if let Memory::Integral(sum) = memory { *sum } else { Velocity::zero() };
+        let sum = if let LawMemory::Integral(sum) = memory { *sum } else { Velocity::zero() };
         let product = |a: Velocity<T, N>, b: Velocity<T, N>| a.zip(b, |a, b| a * b);
         let back = product(self.derivative, at.lag)
             .plus(product(self.proportional, *at.lag_integral))
@@ -55,7 +70,7 @@ where
         for (joint, back) in force.joints.iter_mut().zip(back.joints) {
             *joint *= -back;
         }
-        let memory = Memory::Integral(sum.plus(at.lag_integral.scaled(at.period)));
+        let memory = LawMemory::Integral(sum.plus(at.lag_integral.scaled(at.period)));
         Drive { memory: Some(memory), ..Drive::of_model(force) }
     }
 }

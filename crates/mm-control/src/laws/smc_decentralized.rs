@@ -2,7 +2,7 @@
 
 use mm_model::{Force, Mechanism, Real, Robot, Velocity};
 
-use super::{BsmcSat, Drive, Gains, Tracking};
+use super::{BsmcSat, Drive, Gains, InnerLaw, LawMemory, Tracking};
 use crate::SetupError;
 
 /// Base and arm each by a sliding mode with boundary layer that knows its own dynamics alone:
@@ -28,18 +28,24 @@ pub struct SmcDecentralized<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> SmcDecentralized<T, N> {
-    pub(super) fn try_new(gains: &Gains<T, N>) -> Result<Self, SetupError> {
+    /// The law with checked gains.
+    ///
+    /// # Errors
+    /// The first gain that does not work, by name.
+    pub fn try_new(gains: &Gains<T, N>) -> Result<Self, SetupError> {
         Ok(Self { switching: BsmcSat::try_new(gains)? })
     }
 
     pub(super) const fn authority(&self) -> Force<T, N> {
         self.switching.gain
     }
+}
 
-    pub(super) fn drive(&self, at: &Tracking<'_, T, N>) -> Drive<T, N>
-    where
-        Robot<T, N>: Mechanism<T, N>,
-    {
+impl<T: Real, const N: usize> InnerLaw<T, N> for SmcDecentralized<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    fn drive(&self, at: &Tracking<'_, T, N>, _memory: &LawMemory<T, N>) -> Drive<T, N> {
         let Tracking { robot, inertia, nu, nu_r, dnu_r, .. } = at;
         let own = |part: fn(&Velocity<T, N>) -> Velocity<T, N>| {
             robot.mass_product(inertia, &part(dnu_r)).plus(robot.coriolis_product(

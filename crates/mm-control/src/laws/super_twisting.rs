@@ -1,8 +1,8 @@
 //! `super-twisting`: a continuous sliding mode of second order.
 
-use mm_model::{Force, Mechanism, Real, Robot, Velocity};
+use mm_model::{Force, Mechanism, ParamError, Real, Robot, Velocity};
 
-use super::{Drive, Gains, Memory, RobustForce, Tracking, channel_zip};
+use super::{Drive, Gains, InnerLaw, LawMemory, RobustForce, Tracking, channel_zip};
 
 /// Super-twisting: f = equivalent - k1 sqrt(|s|) sign(s) + v, v' = -k2 sign(s), |v_i| <= limit_i.
 ///
@@ -23,20 +23,27 @@ pub struct SuperTwisting<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> SuperTwisting<T, N> {
-    pub(super) const fn new(gains: &Gains<T, N>) -> Self {
-        Self { root: gains.twisting, rate: gains.twisting_rate, limit: gains.learning_limit }
+    /// The law with checked gains.
+    ///
+    /// # Errors
+    /// The first gain that does not work, by name.
+    pub fn try_new(gains: &Gains<T, N>) -> Result<Self, ParamError> {
+        gains.check()?;
+        Ok(Self { root: gains.twisting, rate: gains.twisting_rate, limit: gains.learning_limit })
     }
+}
 
-    pub(super) fn drive(&self, at: &Tracking<'_, T, N>, memory: &Memory<T, N>) -> Drive<T, N>
-    where
-        Robot<T, N>: Mechanism<T, N>,
-    {
-        let v = if let Memory::Force(v) = memory { *v } else { Force::zero() };
+impl<T: Real, const N: usize> InnerLaw<T, N> for SuperTwisting<T, N>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    fn drive(&self, at: &Tracking<'_, T, N>, memory: &LawMemory<T, N>) -> Drive<T, N> {
+        let v = if let LawMemory::Force(v) = memory { *v } else { Force::zero() };
         let s: &Velocity<T, N> = &at.sliding;
         let root = channel_zip(s, &self.root, |s, k| -(k * s.abs().sqrt() * s.sign()));
         let turn = channel_zip(s, &self.rate, |s, k| -(k * s.sign()));
         let next = v.plus(turn.scaled(at.period)).zip(self.limit, |v, most| v.clamp_to(-most, most));
         let drive = at.switching(RobustForce { total: root.plus(v), fuzzy: Force::zero() });
-        Drive { learned: Some(v.map(|v| -v)), memory: Some(Memory::Force(next)), ..drive }
+        Drive { learned: Some(v.map(|v| -v)), memory: Some(LawMemory::Force(next)), ..drive }
     }
 }

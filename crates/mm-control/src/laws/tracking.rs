@@ -5,30 +5,37 @@ use mm_model::{Force, Mechanism, Real, Robot, Velocity};
 use super::RobustForce;
 
 /// The tracking problem at one instant.
-pub(crate) struct Tracking<'a, T: Real, const N: usize>
+#[derive(Debug, Clone, Copy)]
+pub struct Tracking<'a, T: Real, const N: usize>
 where
     Robot<T, N>: Mechanism<T, N>,
 {
-    pub(crate) robot: &'a Robot<T, N>,
-    pub(crate) posture: &'a <Robot<T, N> as Mechanism<T, N>>::Posture,
-    pub(crate) inertia: &'a <Robot<T, N> as Mechanism<T, N>>::Inertia,
-    pub(crate) nu: &'a Velocity<T, N>,
+    /// The robot that the controller believes in.
+    pub robot: &'a Robot<T, N>,
+    /// Its posture: sines and cosines of the arm.
+    pub posture: &'a <Robot<T, N> as Mechanism<T, N>>::Posture,
+    /// Its inertia in that posture.
+    pub inertia: &'a <Robot<T, N> as Mechanism<T, N>>::Inertia,
+    /// Measured or estimated velocity.
+    pub nu: &'a Velocity<T, N>,
     /// nu_c', what the outer loop asks for.
-    pub(crate) dnu_c: &'a Velocity<T, N>,
+    pub dnu_c: &'a Velocity<T, N>,
     /// nu - nu_c.
-    pub(crate) lag: Velocity<T, N>,
+    pub lag: Velocity<T, N>,
     /// integral(nu - nu_c).
-    pub(crate) lag_integral: &'a Velocity<T, N>,
-    /// nu_r = nu_c - c integral(nu - nu_c), and its rate.
-    pub(crate) nu_r: Velocity<T, N>,
-    pub(crate) dnu_r: Velocity<T, N>,
+    pub lag_integral: &'a Velocity<T, N>,
+    /// nu_r = nu_c - c integral(nu - nu_c).
+    pub nu_r: Velocity<T, N>,
+    /// Its rate.
+    pub dnu_r: Velocity<T, N>,
     /// s = nu - nu_r.
-    pub(crate) sliding: Velocity<T, N>,
+    pub sliding: Velocity<T, N>,
     /// Friction at nu.
-    pub(crate) friction: Force<T, N>,
+    pub friction: Force<T, N>,
     /// Gravity and friction.
-    pub(crate) load: Force<T, N>,
-    pub(crate) period: T,
+    pub load: Force<T, N>,
+    /// Time between two updates, s.
+    pub period: T,
 }
 
 impl<T: Real, const N: usize> Tracking<'_, T, N>
@@ -36,15 +43,17 @@ where
     Robot<T, N>: Mechanism<T, N>,
 {
     /// The equivalent control M nu_r' + C nu_r + g + friction.
+    #[must_use]
     #[inline(always)]
-    pub(crate) fn equivalent(&self) -> Force<T, N> {
+    pub fn equivalent(&self) -> Force<T, N> {
         let Self { robot, inertia, nu, nu_r, dnu_r, .. } = self;
         robot.mass_product(inertia, dnu_r).plus(robot.coriolis_product(inertia, nu, nu_r)).plus(self.load)
     }
 
     /// The equivalent control with a force of s on top.
+    #[must_use]
     #[inline(always)]
-    pub(crate) fn switching(&self, robust: RobustForce<T, N>) -> Drive<T, N> {
+    pub fn switching(&self, robust: RobustForce<T, N>) -> Drive<T, N> {
         let equivalent = self.equivalent();
         Drive {
             force: equivalent.plus(robust.total),
@@ -57,22 +66,23 @@ where
 }
 
 /// The force that a law applies, in parts.
-pub(crate) struct Drive<T, const N: usize> {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drive<T, const N: usize> {
     /// Generalized force, before a momentum observer's part and the limits.
-    pub(crate) force: Force<T, N>,
+    pub force: Force<T, N>,
     /// The part that takes the model as true; the rest opposes s.
-    pub(crate) equivalent: Force<T, N>,
+    pub equivalent: Force<T, N>,
     /// The share of a fuzzy system.
-    pub(crate) fuzzy: Force<T, N>,
+    pub fuzzy: Force<T, N>,
     /// The disturbance that the law itself has learned, part of `force` with the other sign.
-    pub(crate) learned: Option<Force<T, N>>,
+    pub learned: Option<Force<T, N>>,
     /// What the law remembers if no torque is limited; none for a law without memory.
-    pub(crate) memory: Option<Memory<T, N>>,
+    pub memory: Option<LawMemory<T, N>>,
 }
 
 /// What a law remembers between updates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Memory<T, const N: usize> {
+pub enum LawMemory<T, const N: usize> {
     /// Nothing yet.
     None,
     /// The integral of integral(nu - nu_c), of `pid`.
@@ -92,15 +102,17 @@ pub(crate) enum Memory<T, const N: usize> {
 
 impl<T: Real, const N: usize> Drive<T, N> {
     /// A force that takes the model as true, of a law without memory.
-    pub(crate) fn of_model(force: Force<T, N>) -> Self {
+    #[must_use]
+    pub fn of_model(force: Force<T, N>) -> Self {
         Self { force, equivalent: force, fuzzy: Force::zero(), learned: None, memory: None }
     }
 }
 
-impl<T: Real, const N: usize> Memory<T, N> {
+impl<T: Real, const N: usize> LawMemory<T, N> {
     /// Whether nothing in it is infinite or NaN.
+    #[must_use]
     #[inline]
-    pub(crate) fn is_finite(&self) -> bool {
+    pub fn is_finite(&self) -> bool {
         match self {
             Self::None => true,
             Self::Integral(value) => value.is_finite(),
