@@ -35,6 +35,7 @@ pub mod fixed;
 mod membership;
 mod sampled;
 mod smooth;
+mod smooth_knots;
 mod sugeno;
 mod surface;
 mod tables;

@@ -47,18 +47,9 @@ impl<T: Real, const KNOTS: usize> Surface<T, KNOTS> {
     /// [`FuzzyError::OutOfRange`] (`knots`) unless `KNOTS` is odd and at least 3; [`FuzzyError::NonFinite`]
     /// (`input_range`, `engine`) or [`FuzzyError::Inverted`] (`input_range`) for a system that is no proper one.
     pub fn from_engine<E: FuzzySystem<T>>(engine: &E) -> Result<Self, FuzzyError> {
-        if KNOTS < 3 || KNOTS.is_multiple_of(2) {
-            return Err(FuzzyError::OutOfRange("knots"));
-        }
         let (lo, hi) = engine.input_range();
-        if !(lo.is_finite() && hi.is_finite()) {
-            return Err(FuzzyError::NonFinite("input_range"));
-        }
-        if lo >= hi {
-            return Err(FuzzyError::Inverted("input_range"));
-        }
-        let (middle, half) = (T::HALF * lo + T::HALF * hi, T::HALF * hi - T::HALF * lo);
-        let reach = (0..Self::CENTRE).fold(T::ZERO, |n, _| n + T::ONE);
+        let (middle, half) = Self::checked((lo, hi))?;
+        let reach = Self::reach();
         let mut knots = [T::ZERO; KNOTS];
         let mut steps_from_middle = -reach;
         for knot in &mut knots {
@@ -74,6 +65,39 @@ impl<T: Real, const KNOTS: usize> Surface<T, KNOTS> {
             return Err(FuzzyError::NonFinite("engine"));
         }
         Ok(Self { knots, lo, hi, middle, per_step: reach / half, reach, at_nan })
+    }
+
+    /// The table of known knots over a range of inputs; a NaN gives the one in the middle.
+    ///
+    /// # Errors
+    /// As [`from_engine`](Self::from_engine), `knots` for one that is infinite or NaN.
+    pub fn from_knots(knots: &[T; KNOTS], (lo, hi): (T, T)) -> Result<Self, FuzzyError> {
+        let (middle, half) = Self::checked((lo, hi))?;
+        let reach = Self::reach();
+        if !knots.iter().all(|knot| knot.is_finite()) {
+            return Err(FuzzyError::NonFinite("knots"));
+        }
+        let at_nan = knots.get(Self::CENTRE).copied().unwrap_or(T::ZERO);
+        Ok(Self { knots: *knots, lo, hi, middle, per_step: reach / half, reach, at_nan })
+    }
+
+    /// Middle and half width of the range of a table that can be.
+    fn checked((lo, hi): (T, T)) -> Result<(T, T), FuzzyError> {
+        if KNOTS < 3 || KNOTS.is_multiple_of(2) {
+            return Err(FuzzyError::OutOfRange("knots"));
+        }
+        if !(lo.is_finite() && hi.is_finite()) {
+            return Err(FuzzyError::NonFinite("input_range"));
+        }
+        if lo >= hi {
+            return Err(FuzzyError::Inverted("input_range"));
+        }
+        Ok((T::HALF * lo + T::HALF * hi, T::HALF * hi - T::HALF * lo))
+    }
+
+    /// The distance from the middle to either end, in steps.
+    fn reach() -> T {
+        (0..Self::CENTRE).fold(T::ZERO, |n, _| n + T::ONE)
     }
 
     /// The knots from the lower to the upper end of the input range.
@@ -101,6 +125,16 @@ impl<T: Real, const KNOTS: usize> Surface<T, KNOTS> {
     pub fn slope_bound(&self) -> T {
         let pairs = self.knots.iter().zip(self.knots.iter().skip(1));
         self.per_step * pairs.fold(T::ZERO, |most, (left, right)| most.max((*right - *left).abs()))
+    }
+}
+
+impl<T: super::Bundled> Surface<T, 65> {
+    /// The default surface of the control law: [`SMOOTH`](super::SMOOTH) tabulated, from knots in flash.
+    ///
+    /// # Errors
+    /// None in practice: the knots are proper.
+    pub fn smooth() -> Result<Self, FuzzyError> {
+        Self::from_knots(T::SMOOTH_KNOTS, (-T::ONE, T::ONE))
     }
 }
 

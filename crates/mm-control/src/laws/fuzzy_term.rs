@@ -79,7 +79,7 @@ impl<T: Real> FuzzyTerm<T> {
     where
         T: Bundled,
     {
-        Self::table(&Curve::<T>::try_new(T::SMOOTH)?)
+        Surface::smooth().map(Self::Table)
     }
 
     /// What [`BfsmcThesis`](super::BfsmcThesis) uses unless told otherwise.
