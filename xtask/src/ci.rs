@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 
 use crate::mmsim::{Mmsim, Profile};
-use crate::shell::{answers, cargo, run as run_command, watch};
+use crate::shell::{answers, cargo, root, run as run_command, watch};
 use crate::{bench_targets, fuzzy_peers, scenarios};
 
 /// How a step ended, unless it failed.
@@ -41,8 +41,8 @@ const STEPS: [Step; 9] = [
         bench_targets::check()?;
         Ok(End::Done)
     }),
-    ("tests, dev profile", |tests| test(tests, &[])),
-    ("tests, testrelease profile", |tests| test(tests, &["--profile", "testrelease"])),
+    ("tests, dev profile", |tests| test(tests, &["--workspace"])),
+    ("tests of the release code", release_tests),
     ("fuzzy engines from PyPI", |tests| {
         fuzzy_peers::check(|line| tests.add_python(line))?;
         Ok(End::Done)
@@ -96,11 +96,47 @@ fn cargo_step(arguments: &[&str]) -> Result<End> {
     Ok(End::Done)
 }
 
-/// Unit, integration and documentation tests of the workspace, in one invocation.
-fn test(tests: &mut Tests, profile: &[&str]) -> Result<End> {
-    let mut cargo = cargo(&["test", "--workspace", "--locked", "--no-fail-fast"]);
-    watch(cargo.args(profile), |line| tests.add(line))?;
+/// Tests of what the arguments select, in one invocation.
+fn test(tests: &mut Tests, selection: &[&str]) -> Result<End> {
+    let mut cargo = cargo(&["test", "--locked", "--no-fail-fast"]);
+    watch(cargo.args(selection), |line| tests.add(line))?;
     Ok(End::Done)
+}
+
+/// The crates of the microcontroller and the golden digests of whole runs in the profile `testrelease`: what other optimizations could change.
+///
+/// The rest is the same code over them and was tested in the dev profile.
+fn release_tests(tests: &mut Tests) -> Result<End> {
+    let mut selection = vec!["--workspace".to_owned(), "--profile=testrelease".to_owned()];
+    for name in ["mm-model", "mm-control", "mm-link"] {
+        selection.extend(test_targets(name)?.into_iter().map(|target| format!("--test={target}")));
+    }
+    selection.extend(GOLDEN.map(|target| format!("--test={target}")));
+    // What the next steps use, built with the features of the whole workspace.
+    selection.push("--example=evaluate".to_owned());
+    test(tests, &selection.iter().map(String::as_str).collect::<Vec<_>>())?;
+    // Every number of single precision, one by one: among the unit tests.
+    test(tests, &["-p", "mm-model", "--features", "std", "--lib", "--profile", "testrelease"])
+}
+
+/// Test targets with golden digests of whole runs; the first belongs to mm-sim, so that its command is built too.
+const GOLDEN: [&str; 2] = ["plant_variation", "scenarios"];
+
+/// Names of the integration tests of a crate: its files in `tests/`.
+fn test_targets(name: &str) -> Result<Vec<String>> {
+    let folder = root().join("crates").join(name).join("tests");
+    let Ok(entries) = std::fs::read_dir(&folder) else { return Ok(Vec::new()) };
+    let mut targets = Vec::new();
+    for entry in entries {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == "rs")
+            && let Some(stem) = path.file_stem()
+        {
+            targets.push(stem.to_string_lossy().into_owned());
+        }
+    }
+    targets.sort();
+    Ok(targets)
 }
 
 fn deny() -> Result<End> {

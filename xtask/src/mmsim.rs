@@ -36,12 +36,14 @@ impl Mmsim {
         if let Some(path) = path {
             return Ok(Self(std::path::absolute(path)?));
         }
-        let name = match profile {
-            Profile::Release => "release",
-            Profile::TestRelease => "testrelease",
+        let (name, build) = match profile {
+            Profile::Release => ("release", ["build", "--workspace", "--bin=mmsim"].as_slice()),
+            // With a test of it, since features and with them all objects are then those of the test steps.
+            Profile::TestRelease => {
+                ("testrelease", ["test", "--workspace", "--no-run", "--test=plant_variation"].as_slice())
+            }
         };
-        // The whole workspace, so that features and with them all objects are those of the tests.
-        run(&mut cargo(&["build", "--workspace", "--bin", "mmsim", "--profile", name]))?;
+        run(cargo(build).args(["--locked", "--profile", name]))?;
         Ok(Self(target_directory()?.join(name).join("mmsim")))
     }
 
