@@ -18,7 +18,7 @@
 //! one, its documentation says so.
 //!
 //! # Not modelled
-//! Actuator dynamics, and plausibility checks beyond finiteness: the supervisor stage passes its input on.
+//! Actuator dynamics. A stack alone refuses what is not finite; a [`SupervisedStack`] also what is not plausible, and stops the robot.
 //!
 //! # Features
 //! `std` adds the standard library to the dependencies, nothing else; the numbers are the same bits with and without it.

@@ -1,9 +1,11 @@
 //! The control stack: one call from measurement and reference to torques, the same for every user.
 
+mod supervised;
+
 use mm_model::{Configuration, Mechanism, Real, Robot, SinesOf, Velocity, check};
 use nalgebra::Vector3;
 
-use crate::estimator::{Estimate, Estimator, Measurement, Memory, Stage};
+use crate::estimator::{Estimator, Measurement, Memory, Stage};
 use crate::fuzzy::Bundled;
 use crate::laws::{Drive, FuzzyTerm, Gains, InnerLaw, Law, LawMemory, Tracking};
 use crate::observer::{MomentumObserver, ObserverState};
@@ -256,35 +258,19 @@ where
     /// # Errors
     /// [`ControlError::NoEstimator`] for a stack with [`Estimator::None`]; else as [`update`](Self::update). The state is then as
     /// before the call.
-    #[inline(never)]
+    #[inline]
     pub fn update_measured(
         &self,
         state: &mut ControlState<T, N>,
         measurement: &Measurement<T, N>,
         reference: &Reference<T>,
     ) -> Result<Output<T, N>, ControlError> {
-        let Estimate { q, nu, memory } =
-            self.estimator.estimate(&self.robot, &state.estimator, measurement)?;
-        let input = Input { q, nu, reference: *reference };
-        supervise(&input)?;
-        let sines = self.robot.sines(&q);
-        let mut next = ControlState { estimator: memory, ..*state };
-        let output = self.control(&mut next, &input, &sines)?;
-        if self.estimator.wants_model() {
-            let inertia = self.robot.inertia(&sines.posture);
-            let force = self.robot.force_of(&output.torque);
-            next.estimator.foresee(&self.robot.acceleration(&inertia, &nu, &force));
-        }
-        if !next.estimator.is_finite() {
-            return Err(ControlError::Overflow);
-        }
-        *state = next;
-        Ok(output)
+        self.update_measured_if(state, measurement, reference, |_| true)
     }
 
     /// Outer loop, inner loop and limits.
     #[inline(always)]
-    fn control(
+    pub(crate) fn control(
         &self,
         state: &mut ControlState<T, N>,
         input: &Input<T, N>,

@@ -1,135 +1,75 @@
 //! Supervisor: lets a stack run on plausible inputs only, and brings the robot to rest where they fail.
+//!
+//! ```text
+//! timing, input --> plausibility --findings--> machine --mode--> Run:   the law
+//!                    (range, rate,             (counts)          Hold:  the last torque
+//!                     frozen, stale, clock)                      Stop:  braking law, by the measured or the predicted state
+//!                                                                Fault: none, brakes on
+//! ```
+//! What a command is worth in every mode: the torque of the law is finite and within the limits, or the law gives an error; a held
+//! torque was one of these; the torque of a stop goes through a cut that turns what is not a number into zero. So whatever comes
+//! in, no torque beyond the limits and no NaN comes out, and it is never the same torque for more than `hold_periods` updates without a
+//! plausible input.
 
+mod braking;
+mod decide;
+mod machine;
+mod outcome;
 mod params;
+mod plausibility;
 
+pub use outcome::{Command, Findings, Mode, Timing};
 pub use params::SupervisorParams;
 
-use mm_model::{Mechanism, Real, Robot, Torque};
+use mm_model::{Configuration, Mechanism, Real, Robot, SinesOf, Torque, Velocity};
+use nalgebra::Vector3;
 
-use crate::laws::{InnerLaw, Law};
-use crate::{ControlStack, ControlState, Input, Measurement, Output, Reference, SetupError};
-
-/// What the supervisor does with an update.
-///
-/// ```text
-///          input implausible or missing           for longer than hold_periods          blind for longer than blind_periods,
-///                                                                                       or not at rest in time
-///   Run ----------------------------------> Hold ------------------------------> Stop ---------------------------------> Fault
-///    ^ <--- plausible input -----------------'                                     |                                       |
-///    '------ plausible inputs for recovery_periods: starts anew -------------------'      reset, and nothing else <---------'
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Mode {
-    /// The law decides.
-    #[default]
-    Run,
-    /// The last torque of the law is held.
-    Hold,
-    /// The robot is brought to rest and its weight held.
-    Stop,
-    /// No torque, brakes on; left by [`SupervisedStack::reset`] only.
-    Fault,
-}
-
-/// What the clock of the caller says of an update.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Timing<T> {
-    /// Time since the update before, s; the period for the first.
-    pub elapsed: T,
-    /// Age of the input beyond what the stack was built for, s.
-    pub age: T,
-}
-
-impl<T: Real> Timing<T> {
-    /// An update exactly on time, with a fresh input.
-    #[must_use]
-    pub const fn exact(period: T) -> Self {
-        Self { elapsed: period, age: T::ZERO }
-    }
-}
-
-/// What was wrong with an input; several at once are possible.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Findings(u16);
-
-impl Findings {
-    /// Nothing.
-    pub const NONE: Self = Self(0);
-    /// A number of the measured state is infinite or NaN.
-    pub const STATE_NOT_FINITE: Self = Self(1);
-    /// A measured number is outside its range.
-    pub const STATE_RANGE: Self = Self(1 << 1);
-    /// A measured number changed faster than the robot can move.
-    pub const STATE_RATE: Self = Self(1 << 2);
-    /// The measured state stands still although the robot moves.
-    pub const STATE_FROZEN: Self = Self(1 << 3);
-    /// The input is too old.
-    pub const STALE: Self = Self(1 << 4);
-    /// A number of the reference is infinite, NaN or outside its range.
-    pub const REFERENCE: Self = Self(1 << 5);
-    /// The update came too early, or the clock ran backwards.
-    pub const EARLY: Self = Self(1 << 6);
-    /// The update came too late.
-    pub const LATE: Self = Self(1 << 7);
-    /// No input came.
-    pub const MISSED: Self = Self(1 << 8);
-    /// The stack refused the input.
-    pub const REFUSED: Self = Self(1 << 9);
-
-    /// Both.
-    #[must_use]
-    pub const fn and(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// Whether all of `other` was found.
-    #[must_use]
-    pub const fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    /// Whether nothing was found.
-    #[must_use]
-    pub const fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-
-    /// One bit a finding, in the order of the constants, the first lowest.
-    #[must_use]
-    pub const fn bits(self) -> u16 {
-        self.0
-    }
-}
-
-/// What to do until the next update. The torque is finite and within the robot's limits, whatever came in.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Command<T, const N: usize> {
-    /// Torque to apply.
-    pub torque: Torque<T, N>,
-    /// What the supervisor does.
-    pub mode: Mode,
-    /// What was wrong with the input.
-    pub findings: Findings,
-    /// Whether mechanical brakes, where the robot has them, shall hold it.
-    pub brake: bool,
-    /// What the stack gave, where it ran.
-    pub output: Option<Output<T, N>>,
-}
+use crate::laws::{EffectiveInertia, InnerLaw, Law};
+use crate::{ControlError, ControlStack, ControlState, Input, Measurement, Output, Reference, SetupError};
+use braking::Braking;
+use machine::{Machine, Patience};
+use plausibility::{Believed, Plausibility};
 
 /// A control stack under a supervisor: never an error, always a torque that can be applied.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SupervisedStack<T: Real, const N: usize, L = Law<T, N>> {
     stack: ControlStack<T, N, L>,
-    params: SupervisorParams<T, N>,
+    plausibility: Plausibility<T, N>,
+    patience: Patience,
+    braking: Braking<T, N>,
 }
 
 /// What a supervised stack remembers between updates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SupervisedState<T, const N: usize> {
     control: ControlState<T, N>,
-    mode: Mode,
+    machine: Machine,
+    /// Nothing to count, to wait for or to doubt: the next update may be an ordinary one.
+    calm: bool,
+    /// Whether a state, and a reference, was ever believed.
+    seen: bool,
+    aimed: bool,
     /// Last torque given out.
     torque: Torque<T, N>,
+    /// The last plausible state and reference.
+    believed: Believed<T, N>,
+    /// Where the model says that the robot is, if a time has passed since.
+    predicted: (Configuration<T, N>, Velocity<T, N>),
+    /// How far each coordinate should have moved while it did not, m and rad.
+    doubt: Velocity<T, N>,
+    /// Posture at the beginning of the stop, rad.
+    posture: [T; N],
+    /// Time since a state was plausible, and time of early updates, s.
+    since: T,
+    waited: T,
+}
+
+/// What an update may do.
+enum Verdict {
+    /// The law may run; with what was found all the same.
+    Run(Findings),
+    /// It may not, and what is done instead was decided.
+    Safe(Findings),
 }
 
 impl<T: Real, const N: usize, L: InnerLaw<T, N>> SupervisedStack<T, N, L>
@@ -141,13 +81,38 @@ where
     /// # Errors
     /// The first parameter that does not work, by name.
     pub fn try_new(stack: ControlStack<T, N, L>, params: SupervisorParams<T, N>) -> Result<Self, SetupError> {
-        Ok(Self { stack, params })
+        params.check()?;
+        let (robot, period) = (stack.robot(), stack.period());
+        let EffectiveInertia(inertia) = EffectiveInertia::of(robot);
+        Ok(Self {
+            plausibility: Plausibility::new(&params, robot, period),
+            patience: Patience::of(&params),
+            braking: Braking::new(&inertia, params.braking_rate, (period, params.hold_periods)),
+            stack,
+        })
     }
 
     /// The state before the first update.
     #[must_use]
     pub fn initial_state(&self) -> SupervisedState<T, N> {
-        SupervisedState { control: self.stack.initial_state(), mode: Mode::Run, torque: Torque::zero() }
+        SupervisedState {
+            control: self.stack.initial_state(),
+            machine: Machine::default(),
+            calm: false,
+            seen: false,
+            aimed: false,
+            torque: Torque::zero(),
+            believed: Believed {
+                q: Configuration::zero(),
+                nu: Velocity::zero(),
+                reference: Vector3::new(T::ZERO, T::ZERO, T::ZERO),
+            },
+            predicted: (Configuration::zero(), Velocity::zero()),
+            doubt: Velocity::zero(),
+            posture: [T::ZERO; N],
+            since: T::ZERO,
+            waited: T::ZERO,
+        }
     }
 
     /// The stack.
@@ -159,10 +124,13 @@ where
     /// The limits.
     #[must_use]
     pub const fn params(&self) -> &SupervisorParams<T, N> {
-        &self.params
+        self.plausibility.params()
     }
 
     /// One update from configuration and velocity.
+    ///
+    /// The first update takes its input as it is, if every number is in its range: there is nothing to compare it with. The law gives the
+    /// same bits as [`ControlStack::update`] with the same inputs. Cost of a good input besides the law: see `docs/supervisor.md`.
     #[inline]
     pub fn update(
         &self,
@@ -170,14 +138,38 @@ where
         timing: Timing<T>,
         input: &Input<T, N>,
     ) -> Command<T, N> {
-        let _ = timing;
-        match self.stack.update(&mut state.control, input) {
-            Ok(output) => ran(state, output),
-            Err(_) => held(state, Findings::REFUSED),
+        match self.judge(state, timing, input) {
+            Verdict::Run(findings) => {
+                let sines = self.stack.robot().sines(&input.q);
+                let ran = self.stack.control(&mut state.control, input, &sines);
+                self.concluded(state, findings, ran)
+            }
+            Verdict::Safe(findings) => self.safe(state, findings),
+        }
+    }
+
+    /// The same update for a caller that knows the sines of `input.q`; see [`ControlStack::update_with_sines`].
+    #[inline]
+    pub fn update_with_sines(
+        &self,
+        state: &mut SupervisedState<T, N>,
+        timing: Timing<T>,
+        input: &Input<T, N>,
+        sines: &SinesOf<T, N>,
+    ) -> Command<T, N> {
+        match self.judge(state, timing, input) {
+            Verdict::Run(findings) => {
+                let ran = self.stack.control(&mut state.control, input, sines);
+                self.concluded(state, findings, ran)
+            }
+            Verdict::Safe(findings) => self.safe(state, findings),
         }
     }
 
     /// One update from measured positions; see [`ControlStack::update_measured`].
+    ///
+    /// The measured positions are checked before they reach the estimator, the estimated velocity before it reaches the law. In a stop
+    /// the estimator goes on, so that there is something to brake by.
     pub fn update_measured(
         &self,
         state: &mut SupervisedState<T, N>,
@@ -185,36 +177,68 @@ where
         measurement: &Measurement<T, N>,
         reference: &Reference<T>,
     ) -> Command<T, N> {
-        let _ = timing;
-        match self.stack.update_measured(&mut state.control, measurement, reference) {
-            Ok(output) => ran(state, output),
-            Err(_) => held(state, Findings::REFUSED),
+        match self.judge_measured(state, timing, measurement, reference) {
+            Verdict::Run(findings) => {
+                let mut slow = true;
+                let ran = self.stack.update_measured_if(&mut state.control, measurement, reference, |nu| {
+                    slow = self.plausibility.within_speed(nu);
+                    slow
+                });
+                if let Ok(output) = &ran {
+                    state.believed.nu = output.signals.nu;
+                }
+                let fast = if slow { Findings::NONE } else { Findings::STATE_RANGE };
+                self.concluded(state, findings.and(fast), ran)
+            }
+            Verdict::Safe(findings) => self.safe(state, findings),
         }
     }
 
     /// The update of a period in which no input came, `elapsed` s after the update before.
     pub fn missed(&self, state: &mut SupervisedState<T, N>, elapsed: T) -> Command<T, N> {
-        let _ = elapsed;
-        held(state, Findings::MISSED)
+        let findings = self.judge_missed(state, elapsed);
+        self.safe(state, findings)
     }
 
     /// Starts anew from any mode: the operator's decision that the robot may move again.
     pub fn reset(&self, state: &mut SupervisedState<T, N>) {
         *state = self.initial_state();
     }
+
+    /// The command after the law ran, or refused to.
+    #[inline(always)]
+    fn concluded(
+        &self,
+        state: &mut SupervisedState<T, N>,
+        findings: Findings,
+        ran: Result<Output<T, N>, ControlError>,
+    ) -> Command<T, N> {
+        match ran {
+            Ok(output) => {
+                state.torque = output.torque;
+                state.machine.ran();
+                Command {
+                    torque: output.torque,
+                    mode: Mode::Run,
+                    findings,
+                    brake: false,
+                    output: Some(output),
+                }
+            }
+            Err(_) => self.refused(state, findings),
+        }
+    }
 }
 
-fn ran<T: Real, const N: usize>(state: &mut SupervisedState<T, N>, output: Output<T, N>) -> Command<T, N> {
-    state.mode = Mode::Run;
-    state.torque = output.torque;
-    let torque = output.torque;
-    Command { torque, mode: Mode::Run, findings: Findings::NONE, brake: false, output: Some(output) }
-}
+impl<T: Real, const N: usize> SupervisedState<T, N> {
+    /// Configuration and velocity: measured, or predicted from the last that were.
+    fn whereabouts(&self) -> (Configuration<T, N>, Velocity<T, N>) {
+        if self.since > T::ZERO { self.predicted } else { (self.believed.q, self.believed.nu) }
+    }
 
-const fn held<T: Real, const N: usize>(
-    state: &mut SupervisedState<T, N>,
-    findings: Findings,
-) -> Command<T, N> {
-    state.mode = Mode::Hold;
-    Command { torque: state.torque, mode: Mode::Hold, findings, brake: false, output: None }
+    /// What the supervisor did with the last update.
+    #[must_use]
+    pub const fn mode(&self) -> Mode {
+        self.machine.mode
+    }
 }

@@ -200,7 +200,7 @@ impl<T: Real, const N: usize> Gains<T, N> {
 type Test<T> = fn(T, &'static str) -> Result<T, ParamError>;
 
 /// The largest generalized forces that the actuators make: force and moment of the wheels each on its own.
-fn force_limits<T: Real, const N: usize>(robot: &Robot<T, N>) -> Force<T, N>
+pub(crate) fn force_limits<T: Real, const N: usize>(robot: &Robot<T, N>) -> Force<T, N>
 where
     Robot<T, N>: Mechanism<T, N>,
 {

@@ -27,7 +27,7 @@ mod bsmc;
 mod bsmc_sat;
 mod ctc;
 mod fuzzy_term;
-mod gains;
+pub(crate) mod gains;
 mod inner;
 mod lqr;
 mod pid;

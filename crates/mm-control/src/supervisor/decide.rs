@@ -1,0 +1,265 @@
+//! What becomes of an update: judged, and where the law may not run, answered with a torque that is safe.
+
+use mm_model::{Configuration, Mechanism, Real, Robot, Torque, Velocity};
+
+use super::braking::limited;
+use super::machine::Brought;
+use super::plausibility::Clocked;
+use super::{Command, Findings, Mode, SupervisedStack, SupervisedState, Timing, Verdict};
+use crate::laws::InnerLaw;
+use crate::{Input, Measurement, Reference};
+
+/// Findings after which the measured state is not believed.
+const UNSEEN: Findings = Findings::STATE_NOT_FINITE
+    .and(Findings::STATE_RANGE)
+    .and(Findings::STATE_RATE)
+    .and(Findings::STATE_FROZEN)
+    .and(Findings::STALE)
+    .and(Findings::EARLY)
+    .and(Findings::MISSED);
+
+impl<T: Real, const N: usize, L: InnerLaw<T, N>> SupervisedStack<T, N, L>
+where
+    Robot<T, N>: Mechanism<T, N>,
+{
+    /// Whether the law may run on an input; what is believed of it is stored.
+    #[inline(always)]
+    pub(super) fn judge(
+        &self,
+        state: &mut SupervisedState<T, N>,
+        timing: Timing<T>,
+        input: &Input<T, N>,
+    ) -> Verdict {
+        let Input { q, nu, reference } = input;
+        if state.calm && self.plausibility.is_ordinary(&state.believed, timing, (q, nu), reference) {
+            (state.believed.q, state.believed.nu) = (*q, *nu);
+            state.believed.reference = reference.position;
+            return Verdict::Run(Findings::NONE);
+        }
+        self.examine(state, timing, input)
+    }
+
+    /// The same number by number.
+    #[cold]
+    #[inline(never)]
+    fn examine(&self, state: &mut SupervisedState<T, N>, timing: Timing<T>, input: &Input<T, N>) -> Verdict {
+        let Input { q, nu, reference } = input;
+        let clocked = self.plausibility.clocked(timing, state.waited);
+        let since = state.since + clocked.elapsed;
+        let last = state.seen.then_some(&state.believed);
+        let mut findings = clocked
+            .findings
+            .and(self.plausibility.configuration(last, q, since))
+            .and(self.plausibility.velocity(last, nu, since));
+        if !findings.any_of(UNSEEN) {
+            findings = findings.and(self.frozen(state, (q, nu), clocked.elapsed));
+        }
+        self.weigh(
+            state,
+            findings,
+            &clocked,
+            (reference, |state: &mut SupervisedState<T, N>| {
+                (state.believed.q, state.believed.nu) = (*q, *nu);
+            }),
+        )
+    }
+
+    /// Whether the law may run on a measurement.
+    pub(super) fn judge_measured(
+        &self,
+        state: &mut SupervisedState<T, N>,
+        timing: Timing<T>,
+        measurement: &Measurement<T, N>,
+        reference: &Reference<T>,
+    ) -> Verdict {
+        let Measurement { q, wheels } = measurement;
+        let clocked = self.plausibility.clocked(timing, state.waited);
+        let last = state.seen.then_some(&state.believed);
+        let mut findings =
+            clocked.findings.and(self.plausibility.configuration(last, q, state.since + clocked.elapsed));
+        if wheels.is_some_and(|wheels| !(wheels.right.is_finite() && wheels.left.is_finite())) {
+            findings = findings.and(Findings::STATE_NOT_FINITE);
+        }
+        if !findings.any_of(UNSEEN) {
+            findings = findings.and(self.frozen(state, (q, &state.believed.nu.clone()), clocked.elapsed));
+        }
+        let verdict = self.weigh(
+            state,
+            findings,
+            &clocked,
+            (reference, |state: &mut SupervisedState<T, N>| {
+                state.believed.q = *q;
+            }),
+        );
+        // The law's update estimates by itself; where it does not run, braking needs the velocity.
+        if matches!(verdict, Verdict::Safe(_))
+            && !findings.any_of(UNSEEN)
+            && let Ok((_, nu)) = self.stack.estimate(&mut state.control, measurement)
+            && self.plausibility.within_speed(&nu)
+        {
+            state.believed.nu = nu;
+            let posture = self.stack.robot().posture(&q.joints);
+            self.stack.foresee(&mut state.control, &posture, &nu, &state.torque);
+        }
+        verdict
+    }
+
+    /// What becomes of the mode without any input.
+    pub(super) fn judge_missed(&self, state: &mut SupervisedState<T, N>, elapsed: T) -> Findings {
+        let period = self.stack.period();
+        // A period was missed, whatever its clock says.
+        let elapsed = if elapsed >= T::ZERO { elapsed } else { period };
+        let clocked = self.plausibility.clocked(Timing::exact(elapsed), state.waited);
+        let findings = clocked.findings.and(Findings::MISSED);
+        self.lose(state, &clocked);
+        self.advance(state, findings, &clocked);
+        findings
+    }
+
+    /// The verdict on findings; `believe` stores the state if it is to be believed.
+    fn weigh(
+        &self,
+        state: &mut SupervisedState<T, N>,
+        mut findings: Findings,
+        clocked: &Clocked<T>,
+        (reference, believe): (&Reference<T>, impl FnOnce(&mut SupervisedState<T, N>)),
+    ) -> Verdict {
+        let aim = state.aimed.then_some(&state.believed.reference);
+        let (can_be, follows) = self.plausibility.reference(aim, reference, clocked.elapsed);
+        if !(can_be && follows) {
+            findings = findings.and(Findings::REFERENCE);
+        }
+        if findings.any_of(UNSEEN) {
+            self.lose(state, clocked);
+        } else {
+            believe(state);
+            (state.seen, state.since) = (true, T::ZERO);
+        }
+        // A stopped robot may be given another place to begin from; a moving one may not be torn away.
+        if can_be && (follows || state.machine.mode == Mode::Stop) {
+            (state.aimed, state.believed.reference) = (true, reference.position);
+        }
+        let stopped = state.machine.mode == Mode::Stop;
+        self.advance(state, findings, clocked);
+        if state.machine.mode == Mode::Run {
+            if stopped {
+                state.control = self.stack.restarted(&state.control);
+                state.doubt = Velocity::zero();
+            }
+            state.calm =
+                state.seen && state.aimed && state.doubt.channels().all(|doubt| doubt.abs() <= T::ZERO);
+            return Verdict::Run(findings);
+        }
+        Verdict::Safe(findings)
+    }
+
+    /// The mode after an update with these findings.
+    fn advance(&self, state: &mut SupervisedState<T, N>, findings: Findings, clocked: &Clocked<T>) {
+        let sees = !findings.any_of(UNSEEN);
+        let plausible = sees && !findings.any_of(Findings::REFERENCE);
+        let overdue = clocked.missing > self.params().hold_periods;
+        self.step(state, Brought { plausible, sees, overdue });
+        state.waited = if findings.any_of(Findings::EARLY) { clocked.elapsed } else { T::ZERO };
+    }
+
+    /// The next mode; a stop holds the posture in which it begins.
+    fn step(&self, state: &mut SupervisedState<T, N>, brought: Brought) {
+        let before = state.machine.mode;
+        state.machine = state.machine.after(brought, &self.patience);
+        if state.machine.mode == Mode::Stop && before != Mode::Stop {
+            state.posture = state.whereabouts().0.joints;
+        }
+        state.calm = false;
+    }
+
+    /// Carries on what is believed without a measurement.
+    fn lose(&self, state: &mut SupervisedState<T, N>, clocked: &Clocked<T>) {
+        // The time of an early update is counted when the next one is due.
+        if clocked.findings.any_of(Findings::EARLY) {
+            return;
+        }
+        if state.seen {
+            state.predicted = state.whereabouts();
+            self.braking.predict(self.stack.robot(), &mut state.predicted, &state.torque, clocked.elapsed);
+        }
+        state.since += clocked.elapsed;
+        if state.machine.mode == Mode::Stop {
+            self.stack.forget_measured(&mut state.control);
+        }
+    }
+
+    /// Whether a sensor stands still; the doubts are stored.
+    fn frozen(
+        &self,
+        state: &mut SupervisedState<T, N>,
+        (q, nu): (&Configuration<T, N>, &Velocity<T, N>),
+        elapsed: T,
+    ) -> Findings {
+        if !state.seen {
+            return Findings::NONE;
+        }
+        let strained = self.strained(state);
+        state.doubt =
+            self.plausibility.doubt(&state.doubt, (&state.believed.q, q), &nu.scaled(elapsed), &strained);
+        if self.plausibility.is_frozen(&state.doubt) { Findings::STATE_FROZEN } else { Findings::NONE }
+    }
+
+    /// One for each channel that is pushed with more than half of what its actuators can, its weight not counted; else zero.
+    fn strained(&self, state: &SupervisedState<T, N>) -> Velocity<T, N> {
+        let robot = self.stack.robot();
+        let limits = &robot.params().limits;
+        let Torque { right, left, joints } = &state.torque;
+        let flag = |is: bool| if is { T::ONE } else { T::ZERO };
+        let hard = |torque: T, limit: T| torque.abs() > T::HALF * limit;
+        let wheels = limits.wheel_torque + limits.wheel_torque;
+        let mut strained = Velocity {
+            forward: flag(hard(*right + *left, wheels)),
+            yaw_rate: flag(hard(*right - *left, wheels)),
+            joints: [T::ZERO; N],
+        };
+        if joints.iter().zip(&limits.joint_torque).any(|(torque, limit)| hard(*torque, *limit)) {
+            let load = robot.gravity(&robot.inertia(&robot.posture(&state.believed.q.joints)));
+            let pairs = joints.iter().zip(load.joints).zip(&limits.joint_torque);
+            for (strain, ((torque, load), limit)) in strained.joints.iter_mut().zip(pairs) {
+                *strain = flag(hard(*torque - load, *limit));
+            }
+        }
+        strained
+    }
+
+    /// The command where the law may not run.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn safe(&self, state: &mut SupervisedState<T, N>, findings: Findings) -> Command<T, N> {
+        let mode = state.machine.mode;
+        let robot = self.stack.robot();
+        let torque = match mode {
+            Mode::Run | Mode::Hold => state.torque,
+            Mode::Stop if state.seen => {
+                let learned = *state.control.learned();
+                let (q, nu) = state.whereabouts();
+                self.braking.torque(robot, (&q, &nu), &state.posture, &learned)
+            }
+            Mode::Stop | Mode::Fault => Torque::zero(),
+        };
+        if mode == Mode::Stop && !state.machine.at_rest {
+            let rest = self.params().velocity_noise;
+            state.machine.at_rest = state.whereabouts().1.channels().all(|nu| nu.abs() <= rest);
+        }
+        state.torque = limited(robot, torque);
+        let brake = match mode {
+            Mode::Run | Mode::Hold => false,
+            Mode::Stop => state.machine.at_rest,
+            Mode::Fault => true,
+        };
+        Command { torque: state.torque, mode, findings, brake, output: None }
+    }
+
+    /// The command where the law was to run and gave an error; its memory is as it was.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn refused(&self, state: &mut SupervisedState<T, N>, findings: Findings) -> Command<T, N> {
+        self.step(state, Brought { plausible: false, sees: true, overdue: false });
+        self.safe(state, findings.and(Findings::REFUSED))
+    }
+}

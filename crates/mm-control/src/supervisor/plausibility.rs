@@ -1,0 +1,283 @@
+//! Plausibility: whether a state, a reference and a time can be what they say.
+
+use mm_model::{Configuration, Real, Robot, Velocity};
+use nalgebra::Vector3;
+
+use super::{Findings, SupervisorParams, Timing};
+use crate::Reference;
+
+/// The limits, as an update needs them.
+///
+/// A good input is let through by a few sums of squares below the smallest limit squared, which is sufficient for all limits of
+/// its kind: no division, no root, one comparison for several numbers. What fails there is looked at number by number, with
+/// the time that has really passed. A NaN makes its sum a NaN, which is not below anything.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Plausibility<T, const N: usize> {
+    params: SupervisorParams<T, N>,
+    period: T,
+    /// Middle and half width of the range of each joint, margin included.
+    range: [(T, T); N],
+    /// Earliest and latest update that is on time, s.
+    on_time: (T, T),
+    near: Squares<T>,
+    /// How much of a doubt stays after an update.
+    memory: T,
+}
+
+/// Squares of what is certainly within the limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Squares<T> {
+    origin: T,
+    moved: T,
+    speed: T,
+    accelerated: T,
+    step: T,
+    reference_acceleration: T,
+}
+
+/// What was last believed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Believed<T, const N: usize> {
+    pub(super) q: Configuration<T, N>,
+    pub(super) nu: Velocity<T, N>,
+    /// Position of the reference, m.
+    pub(super) reference: Vector3<T>,
+}
+
+/// What the clock says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Clocked<T> {
+    pub(super) findings: Findings,
+    /// Time since the update before, s; not negative, finite.
+    pub(super) elapsed: T,
+    /// Whole updates that are missing.
+    pub(super) missing: u32,
+}
+
+impl<T: Real, const N: usize> Plausibility<T, N> {
+    pub(super) fn new(params: &SupervisorParams<T, N>, robot: &Robot<T, N>, period: T) -> Self {
+        let long = (T::ONE + T::HALF) * period;
+        let square = |limit: T| {
+            let square = limit * limit;
+            if square.is_finite() { square } else { T::ZERO }
+        };
+        let least = |limits: &Velocity<T, N>| limits.channels().fold(limits.forward, |a, b| a.min(b));
+        let within = |(lo, hi): (T, T)| (T::HALF * (lo + hi), T::HALF * (hi - lo) + params.joint_margin);
+        Self {
+            params: *params,
+            period,
+            range: robot.params().limits.joints.map(within),
+            on_time: (T::HALF * period, long),
+            near: Squares {
+                origin: square(params.position),
+                moved: square(least(&params.speed) * long + params.position_noise),
+                speed: square(least(&params.speed)),
+                accelerated: square(least(&params.acceleration) * long + params.velocity_noise),
+                step: square(params.reference_step),
+                reference_acceleration: square(params.reference_acceleration),
+            },
+            memory: T::ONE - T::ONE / T::from_u32(MEMORY),
+        }
+    }
+
+    pub(super) const fn params(&self) -> &SupervisorParams<T, N> {
+        &self.params
+    }
+
+    /// Whether an update that follows an ordinary one is ordinary too: on time, and within every limit by a wide margin.
+    ///
+    /// The product of all changes is zero where a coordinate repeats itself: then, too, somebody has to look closer.
+    #[inline(always)]
+    pub(super) fn is_ordinary(
+        &self,
+        last: &Believed<T, N>,
+        timing: Timing<T>,
+        (q, nu): (&Configuration<T, N>, &Velocity<T, N>),
+        reference: &Reference<T>,
+    ) -> bool {
+        let near = &self.near;
+        let on_time = timing.elapsed >= self.on_time.0
+            && timing.elapsed <= self.on_time.1
+            && timing.age.abs() <= self.params.age;
+        let (dx, dy, turn) = (q.x - last.q.x, q.y - last.q.y, q.heading - last.q.heading);
+        let base = dx * dx + dy * dy;
+        let (mut moved, mut changed, mut in_range) = (base + turn * turn, base * turn, true);
+        for ((&now, before), &(middle, half)) in q.joints.iter().zip(last.q.joints).zip(&self.range) {
+            let way = now - before;
+            moved += way * way;
+            changed *= way;
+            in_range = in_range && (now - middle).abs() <= half;
+        }
+        let (mut speed, mut accelerated) = (T::ZERO, T::ZERO);
+        for (now, before) in nu.channels().zip(last.nu.channels()) {
+            speed += now * now;
+            accelerated += (now - before) * (now - before);
+        }
+        let Reference { position, velocity, acceleration } = reference;
+        on_time
+            && in_range
+            && moved <= near.moved
+            && accelerated <= near.accelerated
+            && speed <= near.speed
+            && q.x * q.x + q.y * q.y + squared(position) <= near.origin
+            && squared(&(position - last.reference)) <= near.step
+            && squared(velocity) <= near.speed
+            && squared(acceleration) <= near.reference_acceleration
+            && changed != T::ZERO
+    }
+
+    /// Reads the clock; `waited` is the time of early updates before this one, which were not used, s.
+    pub(super) fn clocked(&self, timing: Timing<T>, waited: T) -> Clocked<T> {
+        let mut findings = Findings::NONE;
+        let backwards = !(timing.elapsed >= T::ZERO);
+        let elapsed = if backwards { T::ZERO } else { timing.elapsed + waited };
+        // A clock that stood still for ages says no more than one that stood still for an hour of updates.
+        let elapsed = elapsed.min(T::from_u32(MOST_PERIODS) * self.period);
+        if backwards || !(elapsed >= self.on_time.0) {
+            findings = findings.and(Findings::EARLY);
+        }
+        let mut missing = 0;
+        if elapsed > self.on_time.1 {
+            findings = findings.and(Findings::LATE);
+            let (whole, _) = (elapsed / self.period - T::HALF).split_index();
+            missing = u32::try_from(whole).unwrap_or(u32::MAX);
+        }
+        if !(timing.age.abs() <= self.params.age) {
+            findings = findings.and(Findings::STALE);
+        }
+        Clocked { findings, elapsed, missing }
+    }
+
+    /// What is wrong with a measured configuration, `since` s after the last one that was believed, if there was any.
+    pub(super) fn configuration(
+        &self,
+        last: Option<&Believed<T, N>>,
+        q: &Configuration<T, N>,
+        since: T,
+    ) -> Findings {
+        if !q.is_finite() {
+            return Findings::STATE_NOT_FINITE;
+        }
+        let mut findings = Findings::NONE;
+        let joints = q.joints.iter().zip(&self.range);
+        let far = |value: T| !(value.abs() <= self.params.position);
+        if far(q.x) || far(q.y) || joints.into_iter().any(|(q, (mid, half))| !((*q - *mid).abs() <= *half)) {
+            findings = findings.and(Findings::STATE_RANGE);
+        }
+        let Some(last) = last else { return findings };
+        let time = self.allowed(since);
+        let too_far = |way: T, speed: T| !(way.abs() <= speed * time + self.params.position_noise);
+        let speed = &self.params.speed;
+        let joints = q.joints.iter().zip(last.q.joints).zip(speed.joints);
+        if too_far(q.x - last.q.x, speed.forward)
+            || too_far(q.y - last.q.y, speed.forward)
+            || too_far((q.heading - last.q.heading).wrap_to_pi(), speed.yaw_rate)
+            || joints.into_iter().any(|((now, before), speed)| too_far(*now - before, speed))
+        {
+            findings = findings.and(Findings::STATE_RATE);
+        }
+        findings
+    }
+
+    /// What is wrong with a measured velocity.
+    pub(super) fn velocity(&self, last: Option<&Believed<T, N>>, nu: &Velocity<T, N>, since: T) -> Findings {
+        if !nu.is_finite() {
+            return Findings::STATE_NOT_FINITE;
+        }
+        let mut findings = Findings::NONE;
+        if !self.within_speed(nu) {
+            findings = findings.and(Findings::STATE_RANGE);
+        }
+        let Some(last) = last else { return findings };
+        let time = self.allowed(since);
+        let change = nu.minus(last.nu);
+        let change = change.channels().zip(self.params.acceleration.channels());
+        if change
+            .into_iter()
+            .any(|(change, most)| !(change.abs() <= most * time + self.params.velocity_noise))
+        {
+            findings = findings.and(Findings::STATE_RATE);
+        }
+        findings
+    }
+
+    /// Whether no channel is faster than it can be.
+    pub(super) fn within_speed(&self, nu: &Velocity<T, N>) -> bool {
+        nu.channels().zip(self.params.speed.channels()).all(|(nu, most)| nu.abs() <= most)
+    }
+
+    /// Whether every number of a reference can be, and whether it follows from the one before.
+    pub(super) fn reference(
+        &self,
+        last: Option<&Vector3<T>>,
+        reference: &Reference<T>,
+        elapsed: T,
+    ) -> (bool, bool) {
+        let within = |vector: &Vector3<T>, limit: T| vector.iter().all(|value| value.abs() <= limit);
+        let can_be = within(&reference.position, self.params.position)
+            && within(&reference.velocity, self.params.speed.forward)
+            && within(&reference.acceleration, self.params.reference_acceleration);
+        let follows = last.is_none_or(|last| {
+            let pairs = reference.position.iter().zip(last.iter()).zip(reference.velocity.iter());
+            pairs.into_iter().all(|((now, before), rate)| {
+                (*now - *before).abs() <= self.params.reference_step + rate.abs() * elapsed
+            })
+        });
+        (can_be, follows)
+    }
+
+    /// How far each coordinate should have moved while it kept the very same bits, m and rad; zero for one that changed.
+    ///
+    /// d <- (1 - 1/256) d + nu elapsed, signed, so that the noise of a velocity at rest goes to and fro. `strained` names the
+    /// coordinates that are pushed hard and do not move: they are given 1/16 of the noise an update. Beyond the noise a doubt stays
+    /// until the coordinate moves.
+    pub(super) fn doubt(
+        &self,
+        doubt: &Velocity<T, N>,
+        (before, now): (&Configuration<T, N>, &Configuration<T, N>),
+        way: &Velocity<T, N>,
+        strained: &Velocity<T, N>,
+    ) -> Velocity<T, N> {
+        let stays = |before: T, after: T| before == after;
+        let noise = self.params.position_noise;
+        let push = noise / T::from_u32(STRAINED);
+        let pushed =
+            strained.zip(*doubt, |strain, doubt| strain * if doubt < T::ZERO { -push } else { push });
+        let mut next = way
+            .plus(pushed)
+            .zip(*doubt, |step, doubt| if doubt.abs() > noise { doubt } else { doubt * self.memory + step });
+        if !(stays(before.x, now.x) && stays(before.y, now.y)) {
+            next.forward = T::ZERO;
+        }
+        if !stays(before.heading, now.heading) {
+            next.yaw_rate = T::ZERO;
+        }
+        for ((doubt, before), after) in next.joints.iter_mut().zip(before.joints).zip(now.joints) {
+            if !stays(before, after) {
+                *doubt = T::ZERO;
+            }
+        }
+        next
+    }
+
+    /// Whether a doubt has become certainty.
+    pub(super) fn is_frozen(&self, doubt: &Velocity<T, N>) -> bool {
+        doubt.channels().any(|doubt| !(doubt.abs() <= self.params.position_noise))
+    }
+
+    /// The time that a change is measured against, s: one and a half of what has passed, at least of a period.
+    fn allowed(&self, since: T) -> T {
+        (T::ONE + T::HALF) * since.max(self.period)
+    }
+}
+
+/// Updates over which a doubt is remembered.
+const MEMORY: u32 = 256;
+/// Updates after which a coordinate that is pushed hard and does not move counts as frozen.
+const STRAINED: u32 = 16;
+/// Longest time that a clock is believed to have passed at once, in periods.
+const MOST_PERIODS: u32 = 1 << 20;
+
+fn squared<T: Real>(vector: &Vector3<T>) -> T {
+    vector.x * vector.x + vector.y * vector.y + vector.z * vector.z
+}
