@@ -1,9 +1,8 @@
-//! Links the program for a Cortex-M with the memory of `memory.x`.
+//! Links the program with the script of the processor's runtime.
 
 fn main() {
-    println!("cargo::rerun-if-changed=memory.x");
+    println!("cargo::rerun-if-changed=build.rs");
     if std::env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "none") {
-        println!("cargo::rustc-link-search={}", env!("CARGO_MANIFEST_DIR"));
         println!("cargo::rustc-link-arg-bins=-Tlink.x");
     }
 }
