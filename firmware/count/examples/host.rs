@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::process::ExitCode;
 
-use count::{Clock, Counter};
+use count::{Clock, Counter, NoDepth};
 
 /// A clock that knows of nothing but the loop it is calibrated with.
 struct Told(Cell<u32>);
@@ -21,14 +21,14 @@ impl Clock for Told {
 fn main() -> ExitCode {
     let mut lines = String::new();
     let Ok(counter) = Counter::calibrated(Told(Cell::new(0))) else { return ExitCode::FAILURE };
-    match count::run(&counter, &mut lines) {
-        Ok(()) => {
-            print!("{lines}");
-            ExitCode::SUCCESS
-        }
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
+    if let Err(error) = count::run(&counter, &mut lines) {
+        eprintln!("{error}");
+        return ExitCode::FAILURE;
     }
+    if let Err(error) = count::control(&counter, &mut NoDepth, &mut lines) {
+        eprintln!("{error}");
+        return ExitCode::FAILURE;
+    }
+    print!("{lines}");
+    ExitCode::SUCCESS
 }

@@ -9,8 +9,15 @@
 //! an empty function.
 #![no_std]
 
+mod control;
 mod fuzzy;
 mod measure;
+mod motions;
+#[cfg(target_os = "none")]
+mod on_board;
 
+pub use control::run as control;
 pub use fuzzy::run;
-pub use measure::{Clock, Count, Counter, Miscounted};
+pub use measure::{Clock, Count, Counter, Depth, Miscounted, NoDepth};
+#[cfg(target_os = "none")]
+pub use on_board::{OnBoard, OnStack, calibrated};

@@ -11,6 +11,26 @@ pub trait Clock {
     fn spend(&self, instructions: u32);
 }
 
+/// How deep the stack goes.
+pub trait Depth {
+    /// Measures from here on.
+    fn begin(&mut self);
+    /// Most bytes that were in use since, beyond those in use then.
+    fn deepest(&self) -> u32;
+}
+
+/// Where nothing is known of the stack.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoDepth;
+
+impl Depth for NoDepth {
+    fn begin(&mut self) {}
+
+    fn deepest(&self) -> u32 {
+        0
+    }
+}
+
 /// Instructions that evaluations of one kind took, and what they gave.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Count {
@@ -26,6 +46,29 @@ pub struct Count {
     pub worst: u32,
     /// The outputs' bits as the digits of a number with base 31, modulo 2^32: their order counts, and opposites do not cancel.
     pub checksum: u32,
+}
+
+impl Count {
+    /// Before the first evaluation.
+    #[must_use]
+    pub fn none() -> Self {
+        Self { min: u32::MAX, ..Self::default() }
+    }
+
+    /// Counts an evaluation.
+    pub fn add(&mut self, instructions: u32) {
+        if instructions > self.max {
+            (self.max, self.worst) = (instructions, self.evaluations);
+        }
+        self.min = self.min.min(instructions);
+        self.total = self.total.wrapping_add(instructions);
+        self.evaluations += 1;
+    }
+
+    /// Takes a number of an output into the checksum.
+    pub const fn note(&mut self, bits: u32) {
+        self.checksum = self.checksum.wrapping_mul(31).wrapping_add(bits);
+    }
 }
 
 impl fmt::Display for Count {
@@ -90,20 +133,23 @@ impl<C: Clock> Counter<C> {
         evaluate: fn(&S, X) -> X,
         bits: fn(X) -> u32,
     ) -> Count {
-        let mut count = Count { min: u32::MAX, ..Count::default() };
+        let mut count = Count::none();
         let overhead = inputs.clone().take(2).map(|x| self.timed(system, x, nothing).0).last().unwrap_or(0);
         for input in inputs {
             let (ticks, output) = self.timed(system, input, evaluate);
-            let instructions = self.instructions(ticks.wrapping_sub(overhead));
-            if instructions > count.max {
-                (count.max, count.worst) = (instructions, count.evaluations);
-            }
-            count.min = count.min.min(instructions);
-            count.total += instructions;
-            count.evaluations += 1;
-            count.checksum = count.checksum.wrapping_mul(31).wrapping_add(bits(output));
+            count.add(self.instructions(ticks.wrapping_sub(overhead)));
+            count.note(bits(output));
         }
         count
+    }
+
+    /// Instructions between two readings of the clock with some work between them, and what the work gave.
+    #[inline(always)]
+    pub fn timed_work<R>(&self, work: impl FnOnce() -> R) -> (u32, R) {
+        let start = self.clock.ticks();
+        let result = work();
+        let end = self.clock.ticks();
+        (self.instructions(elapsed(start, end)), result)
     }
 
     /// Ticks of 10,000 instructions, for a comparison with what is known of the clock.
