@@ -174,12 +174,11 @@ where
     /// A = J W^-1 J' + lambda^2 I.
     #[inline]
     fn normal_matrix(&self, jacobian: &TipJacobian<T, N>, damping_squared: T) -> Symmetric3<T> {
-        jacobian
-            .columns()
-            .zip(self.inverse_weights.channels())
-            .fold(Symmetric3::scaled_identity(damping_squared), |sum, (column, weight)| {
-                sum.plus_outer(column, weight)
-            })
+        jacobian.fold_weighted(
+            &self.inverse_weights,
+            Symmetric3::scaled_identity(damping_squared),
+            |sum, column, weight| sum.plus_outer(column, weight),
+        )
     }
 }
 

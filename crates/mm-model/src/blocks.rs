@@ -116,6 +116,16 @@ macro_rules! block_vector {
                 [self.$first, self.$second].into_iter().chain(self.joints.iter().copied())
             }
 
+            /// A channel by its number in that order; none beyond the last.
+            #[inline]
+            pub fn channel_mut(&mut self, channel: usize) -> Option<&mut T> {
+                match channel {
+                    0 => Some(&mut self.$first),
+                    1 => Some(&mut self.$second),
+                    _ => self.joints.get_mut(channel - 2),
+                }
+            }
+
             /// The vector whose channels are the first 2 + N numbers of an iterator; zero where it ends early.
             #[must_use]
             #[inline]

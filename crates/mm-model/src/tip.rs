@@ -46,6 +46,19 @@ impl<T: Real, const N: usize> TipJacobian<T, N> {
         }
     }
 
+    /// Folds over the columns, each with the weight of its channel, in the order of the channels.
+    #[inline]
+    pub fn fold_weighted<A>(
+        &self,
+        weights: &Velocity<T, N>,
+        first: A,
+        mut fold: impl FnMut(A, &Vector3<T>, T) -> A,
+    ) -> A {
+        let base = fold(first, &self.forward, weights.forward);
+        let base = fold(base, &self.yaw_rate, weights.yaw_rate);
+        self.joints.iter().zip(&weights.joints).fold(base, |sum, (column, &weight)| fold(sum, column, weight))
+    }
+
     /// The columns in the order of the channels.
     #[inline]
     pub fn columns(&self) -> impl Iterator<Item = &Vector3<T>> {

@@ -2,6 +2,8 @@
 
 use mm_model::{Configuration, Mechanism, Real, Robot, Sines, SinesOf, TipJacobian, Velocity};
 
+use nalgebra::Vector3;
+
 use super::base_share::BaseShare;
 use super::correction::TipTask;
 use super::{OuterLoop, OuterOutput, channels_of};
@@ -126,9 +128,7 @@ where
         let weights = times(share, self.inverse_weights);
         let weight_rates = times(share_rate, self.inverse_weights);
         let normal = jacobian
-            .columns()
-            .zip(weights.channels())
-            .fold(Symmetric3::scaled_identity(damping), |sum, (column, weight)| {
+            .fold_weighted(&weights, Symmetric3::scaled_identity(damping), |sum, column, weight| {
                 sum.plus_outer(column, weight)
             })
             .factor();
@@ -163,25 +163,33 @@ where
         channels: &Channels<T, N>,
     ) -> Option<Violation<T>> {
         let gamma = self.params.joint_limit_rate;
-        let fastest = self.bounds.forward;
-        let limits = &situation.robot.params().limits.joints;
-        let joints = situation.q.joints.iter().zip(&situation.nu.joints).zip(limits);
-        let of_joints = joints.map(|((&angle, &rate), &(lo, hi))| {
-            let bound_rate = -(gamma * rate);
-            (gamma > T::ZERO).then(|| (gamma * (lo - angle), gamma * (hi - angle), bound_rate))
-        });
-        let all = [Some((-fastest, fastest, T::ZERO)), None].into_iter().chain(of_joints);
-        let asked = nu_c.channels().zip(dnu_c.channels()).zip(channels.share.channels());
         let mut worst: Option<Violation<T>> = None;
-        for (channel, (((rate, change), share), bounds)) in asked.zip(all).enumerate() {
-            let Some((lower, upper, bound_rate)) = bounds.filter(|_| share > T::ZERO) else { continue };
-            let violation = if rate > upper {
-                Violation { channel, excess: (rate - upper, change - bound_rate), bound: (upper, bound_rate) }
+        let mut consider = |channel, (rate, change): Moving<T>, (lower, upper): (T, T), bound_rate: T| {
+            let (excess, bound) = if rate > upper {
+                ((rate - upper, change - bound_rate), upper)
             } else {
-                Violation { channel, excess: (lower - rate, bound_rate - change), bound: (lower, bound_rate) }
+                ((lower - rate, bound_rate - change), lower)
             };
-            if violation.excess.0 > worst.map_or(T::ZERO, |worst| worst.excess.0) {
-                worst = Some(violation);
+            if excess.0 > worst.map_or(T::ZERO, |worst| worst.excess.0) {
+                worst = Some(Violation { channel, excess, bound: (bound, bound_rate) });
+            }
+        };
+        let share = &channels.share;
+        if share.forward > T::ZERO {
+            let fastest = self.bounds.forward;
+            consider(0, (nu_c.forward, dnu_c.forward), (-fastest, fastest), T::ZERO);
+        }
+        if gamma > T::ZERO {
+            let limits = &situation.robot.params().limits.joints;
+            let measured = situation.q.joints.iter().zip(&situation.nu.joints).zip(limits);
+            let asked = nu_c.joints.iter().zip(&dnu_c.joints).zip(&share.joints);
+            for (joint, (((&angle, &speed), &(lo, hi)), ((&rate, &change), &share))) in
+                measured.zip(asked).enumerate()
+            {
+                if share > T::ZERO {
+                    let bounds = (gamma * (lo - angle), gamma * (hi - angle));
+                    consider(2 + joint, (rate, change), bounds, -(gamma * speed));
+                }
             }
         }
         worst
@@ -192,9 +200,9 @@ impl<T: Real, const N: usize> Channels<T, N> {
     /// Takes a channel out of what is free and holds it to its bound.
     fn hold(&mut self, violation: &Violation<T>) {
         let set = |values: &mut Velocity<T, N>, value: T| {
-            let all = values.channels().enumerate();
-            *values =
-                Velocity::from_channels(all.map(|(i, old)| if i == violation.channel { value } else { old }));
+            if let Some(channel) = values.channel_mut(violation.channel) {
+                *channel = value;
+            }
         };
         set(&mut self.share, T::ZERO);
         set(&mut self.share_rate, T::ZERO);
@@ -205,14 +213,18 @@ impl<T: Real, const N: usize> Channels<T, N> {
     /// det(J S J') and its rate along the motion.
     fn determinant(&self, Task { jacobian, jacobian_rate, .. }: &Task<T, N>) -> Moving<T> {
         let none = Symmetric3::scaled_identity(T::ZERO);
-        let columns = jacobian.columns().zip(jacobian_rate.columns());
-        let shares = self.share.channels().zip(self.share_rate.channels());
-        let mut sums = (none, none);
-        for ((column, turn), (share, change)) in columns.zip(shares) {
-            let (matrix, rate) = sums;
-            let turned: Symmetric3<T> = rate.plus_both(column, turn, share);
-            sums = (matrix.plus_outer(column, share), turned.plus_outer(column, change));
-        }
+        let added = |(matrix, rate): (Symmetric3<T>, Symmetric3<T>),
+                     (column, turn): (&Vector3<T>, &Vector3<T>),
+                     (share, change): Moving<T>| {
+            let turned = rate.plus_both(column, turn, share);
+            (matrix.plus_outer(column, share), turned.plus_outer(column, change))
+        };
+        let (j, turn, share, change) = (jacobian, jacobian_rate, &self.share, &self.share_rate);
+        let base = added((none, none), (&j.forward, &turn.forward), (share.forward, change.forward));
+        let base = added(base, (&j.yaw_rate, &turn.yaw_rate), (share.yaw_rate, change.yaw_rate));
+        let joints = j.joints.iter().zip(&turn.joints).zip(share.joints.iter().zip(&change.joints));
+        let sums =
+            joints.fold(base, |sums, (columns, (&share, &change))| added(sums, columns, (share, change)));
         sums.0.determinant(&sums.1)
     }
 }
