@@ -117,6 +117,7 @@ pub fn square(kind: LawKind, ticks: u64) -> Result<Simulation> {
         initial: PlantState { q, nu: Velocity::zero(), travel: 0.0, yaw_slip: 0.0 },
         clock: Clock { period: PERIOD, substeps: 1, ticks, log_every: NO_SAMPLES },
         hardware: None,
+        guard: None,
     })
 }
 

@@ -2,6 +2,7 @@
 
 mod controller;
 mod disturbances;
+mod faults;
 mod fuzzy;
 mod hardware;
 mod initial;
@@ -64,7 +65,8 @@ impl Experiment {
         let stack = controller::stack(loaded, nominal)?;
         trajectory::check_heights(loaded, &actual, &reference, &clock)?;
         let hardware = hardware::hardware(file, stack.estimates());
-        Ok(Self::Closed(Simulation { stack, plant, trajectory: reference, initial, clock, hardware }))
+        let guard = faults::guard(loaded, &stack)?;
+        Ok(Self::Closed(Simulation { stack, plant, trajectory: reference, initial, clock, hardware, guard }))
     }
 
     /// Runs it.

@@ -176,6 +176,7 @@ impl Imposed {
         Ok(RunResult {
             metrics: metrics.finish(None),
             monitors: None,
+            supervisor: None,
             digest: digest.finish(),
             ending,
             joint_limit_crossed_at: crossed_at,

@@ -10,6 +10,7 @@ pub mod cli;
 pub mod digest;
 pub mod disturbance;
 pub mod experiment;
+pub mod faults;
 pub mod figures;
 pub mod hardware;
 pub mod imposed;

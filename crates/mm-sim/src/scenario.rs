@@ -32,10 +32,10 @@ pub use docs::markdown;
 pub use schema::schema;
 pub use types::{
     Actuators, AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget,
-    Estimator, EstimatorKind, Expect, Friction, FuzzyEngine, Gains, GainsFor, Initial, Integrator, Link,
-    Misprints, Motion, Motor, Motors, Outer, Peaks, PerAxis, PerChannel, Plant, PlantScale, PoseSource,
-    Preset, Robot, RobotFields, ScenarioFile, Segment, Sensors, Shape, Simulation, Sweep, TipStart, Totals,
-    Trajectory, Tune, WaypointPath,
+    Estimator, EstimatorKind, Expect, Fault, FaultKind, FaultTarget, Friction, FuzzyEngine, Gains, GainsFor,
+    Initial, Integrator, Link, Misprints, Motion, Motor, Motors, Outer, Peaks, PerAxis, PerChannel, Plant,
+    PlantScale, PoseSource, Preset, Robot, RobotFields, ScenarioFile, Segment, Sensors, Shape, Simulation,
+    Supervisor, Sweep, TipStart, Totals, Trajectory, Tune, WaypointPath,
 };
 
 /// The name that an argument of the command line has in messages.

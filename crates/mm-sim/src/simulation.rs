@@ -1,17 +1,21 @@
 //! The closed loop: reference, controller, plant, metrics and digest, tick by tick.
 
+mod guard;
+mod outcome;
 mod runaway;
 
+pub use guard::{Found, Guard, SupervisorReport};
+pub use outcome::{ASK_EVERY, Ending, NoRecorder, Recorder, RunResult, Sample};
 pub(crate) use runaway::runaway;
 
-use mm_control::{ControlError, ControlStack, Input, Output, Reference, Signals, required_gain};
+use mm_control::{ControlStack, Input, Output, Reference, Signals, required_gain};
 use mm_model::{Force, Mechanism, Torque};
 use nalgebra::Vector3;
 
 use crate::digest::Digest;
 use crate::hardware::{Hardware, Running};
-use crate::metrics::{Accumulator, Metrics, Tick};
-use crate::monitors::{Lyapunov, MonitorReport, Monitors};
+use crate::metrics::{Accumulator, Tick};
+use crate::monitors::{Lyapunov, Monitors};
 use crate::plant::{Plant, PlantSines, PlantState};
 use crate::trajectory::Trajectory;
 
@@ -30,6 +34,8 @@ pub struct Simulation {
     pub clock: Clock,
     /// Sensors and actuators; none where the controller knows the true state and its torques act at once.
     pub hardware: Option<Hardware>,
+    /// Supervisor and faults; none where the controller runs on everything, and everything is right.
+    pub guard: Option<Box<Guard>>,
 }
 
 /// Ticks of the controller and steps of the plant.
@@ -58,120 +64,6 @@ impl Clock {
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.time(self.ticks)
-    }
-}
-
-/// One logged instant.
-#[derive(Debug, Clone, Copy)]
-pub struct Sample<'a> {
-    /// Time, s.
-    pub t: f64,
-    /// True state.
-    pub state: &'a PlantState,
-    /// True tip, m.
-    pub tip: Vector3<f64>,
-    /// Reference.
-    pub reference: &'a Reference<f64>,
-    /// Torque at the plant's input.
-    pub torque: &'a Torque<f64, 3>,
-    /// Disturbance as a generalized force.
-    pub external: Force<f64, 3>,
-    /// Switching gain that the reaching condition asks for, what the controller's own limit cuts off counted as an external
-    /// force; zero for a law without a switching gain.
-    pub required_gain: Force<f64, 3>,
-    /// Lyapunov function of the sliding mode; zero for an imposed motion.
-    pub lyapunov: Lyapunov,
-    /// Square of the true manipulability.
-    pub manipulability_squared: f64,
-    /// Whether the controller or an actuator limited a torque.
-    pub saturated: bool,
-    /// The controller's outcomes and signals; none for an imposed motion.
-    pub output: Option<&'a Output<f64, 3>>,
-}
-
-/// Takes the samples of a run, and may end it.
-pub trait Recorder {
-    /// What can go wrong in taking a sample.
-    type Error;
-    /// Takes a sample; `false` asks to stop here.
-    ///
-    /// # Errors
-    /// The recorder's own.
-    fn record(&mut self, sample: &Sample<'_>) -> Result<bool, Self::Error>;
-
-    /// Whether to go on; asked every [`ASK_EVERY`] ticks, however seldom samples are taken.
-    fn goes_on(&mut self) -> bool {
-        true
-    }
-}
-
-/// Ticks after which a recorder is asked whether to go on: some milliseconds of wall time.
-pub const ASK_EVERY: u64 = 4096;
-
-/// A recorder that keeps nothing.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NoRecorder;
-
-impl Recorder for NoRecorder {
-    type Error = core::convert::Infallible;
-    fn record(&mut self, _sample: &Sample<'_>) -> Result<bool, Self::Error> {
-        Ok(true)
-    }
-}
-
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Ending {
-    /// The whole duration was simulated.
-    Finished,
-    /// The recorder asked to stop.
-    Stopped {
-        /// When, s.
-        t: f64,
-    },
-    /// The loop ran away.
-    Diverged {
-        /// When, s.
-        t: f64,
-        /// Which state, in words.
-        state: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// The controller refused its input.
-    Refused {
-        /// When, s.
-        t: f64,
-        /// Why.
-        error: ControlError,
-    },
-}
-
-/// What a run gives.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RunResult {
-    /// Metrics over the ticks simulated.
-    pub metrics: Metrics,
-    /// What the monitors saw; none for an imposed motion.
-    pub monitors: Option<MonitorReport>,
-    /// Digest of the trajectory: XXH3-128 in hexadecimal digits.
-    pub digest: String,
-    /// How it ended.
-    pub ending: Ending,
-    /// First time at which a joint was outside its limits, s.
-    pub joint_limit_crossed_at: Option<f64>,
-    /// State after the last step.
-    pub last: PlantState,
-}
-
-impl RunResult {
-    /// Time simulated, s: the whole duration, or up to where the run ended.
-    #[must_use]
-    pub fn simulated_s(&self, clock: &Clock) -> f64 {
-        match self.ending {
-            Ending::Finished => clock.duration(),
-            Ending::Stopped { t } | Ending::Diverged { t, .. } | Ending::Refused { t, .. } => t,
-        }
     }
 }
 
@@ -212,6 +104,7 @@ struct Run<'a> {
     simulation: &'a Simulation,
     control: mm_control::ControlState<f64, 3>,
     hardware: Option<Box<Running<'a>>>,
+    guard: Option<Box<guard::Running<'a>>>,
     state: PlantState,
     metrics: Accumulator,
     digest: Digest,
@@ -231,6 +124,10 @@ impl<'a> Run<'a> {
             hardware: simulation.hardware.as_ref().map(|hardware| {
                 Box::new(Running::new(hardware, simulation.plant.robot(), &simulation.initial))
             }),
+            guard: simulation
+                .guard
+                .as_ref()
+                .map(|guard| Box::new(guard::Running::new(guard, &simulation.stack))),
             state: simulation.initial,
             metrics: Accumulator::new(clock.duration(), clock.period),
             digest: Digest::new(),
@@ -255,11 +152,20 @@ impl<'a> Run<'a> {
             self.metrics.note_last_error(&error);
             return Ok(Some(Ending::Diverged { t, state, value }));
         }
-        let updated = match &mut self.hardware {
-            Some(hardware) if stack.estimates() => {
+        let updated = match (&mut self.guard, &mut self.hardware) {
+            (None, Some(hardware)) if stack.estimates() => {
                 stack.update_measured(&mut self.control, &hardware.measure(&self.state), &reference)
             }
-            _ => stack.update_with_sines(&mut self.control, &Input { q, nu, reference }, &sines),
+            (None, _) => stack.update_with_sines(&mut self.control, &Input { q, nu, reference }, &sines),
+            (Some(guard), hardware) => {
+                let hardware = hardware.as_deref_mut().filter(|_| stack.estimates());
+                let measured = hardware.map(|hardware| hardware.measure(&self.state));
+                let input = Input { q, nu, reference };
+                match guard.update((t, clock.period), &mut self.control, &input, measured) {
+                    Ok(output) => Ok(output),
+                    Err(ending) => return Ok(Some(ending)),
+                }
+            }
         };
         let output = match updated {
             Ok(output) => output,
@@ -391,6 +297,7 @@ impl<'a> Run<'a> {
         RunResult {
             metrics: self.metrics.finish(self.monitors.reaching()),
             monitors: Some(self.monitors.report(self.metrics.ticks())),
+            supervisor: self.guard.and_then(|guard| guard.report()),
             digest: self.digest.finish(),
             ending,
             joint_limit_crossed_at: self.crossed_at,

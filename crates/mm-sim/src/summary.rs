@@ -1,11 +1,12 @@
 //! The summary of a run: the `--json` object, its warnings and the judgement of `[expect]`.
 
+use mm_control::supervisor::Findings;
 use serde::Serialize;
 
 use crate::metrics::Metrics;
 use crate::monitors::{Lasting, MonitorReport};
 use crate::scenario::{Bounds, Expect};
-use crate::simulation::{Ending, RunResult};
+use crate::simulation::{Ending, RunResult, SupervisorReport};
 
 /// The `--json` summary of one run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -24,7 +25,7 @@ pub struct Summary {
     pub control_period_s: f64,
     /// Seed of everything random.
     pub seed: u64,
-    /// How it ended: finished, interrupted, diverged or refused.
+    /// How it ended: finished, interrupted, diverged, refused or fault.
     pub ended: &'static str,
     /// Time simulated, s: less than the duration of a run that ended early.
     pub simulated_s: f64,
@@ -32,6 +33,8 @@ pub struct Summary {
     pub metrics: Metrics,
     /// What the monitors saw; none for an imposed motion.
     pub monitors: Option<MonitorReport>,
+    /// What the supervisor did; none without one.
+    pub supervisor: Option<SupervisorReport>,
     /// XXH3-128 of the trajectory.
     pub digest: String,
     /// Simulated seconds per second of wall time.
@@ -75,6 +78,7 @@ pub fn warnings(result: &RunResult, speed_limit: f64) -> Vec<String> {
         let times = m.joint_limit_crossings.max(1);
         all.push(format!("a joint was outside its limits, first at t = {t:.3} s, {times} time(s) in all"));
     }
+    all.extend(result.supervisor.as_ref().and_then(supervised));
     if let Some(monitors) = &result.monitors {
         let told = [
             ("the outer loop limited its speed", monitors.speed_limited),
@@ -94,6 +98,33 @@ pub fn warnings(result: &RunResult, speed_limit: f64) -> Vec<String> {
     all
 }
 
+/// Names of findings.
+fn found(findings: Findings) -> String {
+    let names = Findings::ALL.into_iter().filter(|(finding, _)| findings.contains(*finding));
+    let names: Vec<_> = names.map(|(_, name)| name).collect();
+    if names.is_empty() { "not at rest in time".to_owned() } else { names.join(", ") }
+}
+
+/// What a supervisor did, in words; none if it had nothing to do.
+fn supervised(report: &SupervisorReport) -> Option<String> {
+    let first = report.findings.iter().min_by(|a, b| a.first_s.total_cmp(&b.first_s))?;
+    let stops = report.first_stop_s.map_or_else(String::new, |t| {
+        format!(
+            ", stopped it {} time(s), first at t = {t:.3} s, for {} updates",
+            report.stops, report.stopped_periods
+        )
+    });
+    let names: Vec<_> =
+        report.findings.iter().map(|found| format!("{} {}", found.periods, found.finding)).collect();
+    Some(format!(
+        "the supervisor found {}, first {} at t = {:.3} s; it held the torque for {} updates{stops}",
+        names.join(", "),
+        first.finding,
+        first.first_s,
+        report.held_periods
+    ))
+}
+
 /// What was so in some part of the run, in words; none if it never was.
 fn during(what: &str, Lasting { fraction, first_s }: Lasting) -> Option<String> {
     let percent = 100.0 * fraction;
@@ -109,6 +140,7 @@ pub const fn ended(ending: &Ending) -> &'static str {
         Ending::Stopped { .. } => "interrupted",
         Ending::Diverged { .. } => "diverged",
         Ending::Refused { .. } => "refused",
+        Ending::Faulted { .. } => "fault",
     }
 }
 
@@ -122,6 +154,10 @@ pub fn describe(ending: &Ending) -> Option<String> {
             let value = if value.abs() < 1e5 { format!("{value:.3}") } else { format!("{value:.3e}") };
             Some(format!("diverged at t = {t:.3} s: {state} was {value}"))
         }
+        Ending::Faulted { t, findings } => Some(format!(
+            "the supervisor gave up at t = {t:.3} s ({}); the simulated robot has no brakes",
+            found(*findings)
+        )),
         Ending::Refused { t, error } => {
             Some(format!("the controller refused its input at t = {t:.3} s: {error}"))
         }

@@ -33,6 +33,8 @@ pub enum Ended {
     Diverged,
     /// The controller refused its input.
     Refused,
+    /// The supervisor gave the robot up.
+    Faulted,
 }
 
 /// What is kept of a sample.
@@ -106,6 +108,7 @@ fn run_sample(
         Ending::Finished => Ended::Finished,
         Ending::Diverged { .. } => Ended::Diverged,
         Ending::Refused { .. } => Ended::Refused,
+        Ending::Faulted { .. } => Ended::Faulted,
         Ending::Stopped { .. } => return Ok(None),
     };
     let simulated_s = result.simulated_s(experiment.clock());

@@ -84,9 +84,10 @@ pub fn cost(tune: &Tune, metrics: &Metrics, ending: &Ending, duration: f64) -> f
                 + tune.effort_weight * metrics.effort_n2_m2_s;
             if sum <= EARLY_END { sum } else { EARLY_END }
         }
-        Ending::Stopped { t } | Ending::Diverged { t, .. } | Ending::Refused { t, .. } => {
-            EARLY_END * (2.0 - t / duration)
-        }
+        Ending::Stopped { t }
+        | Ending::Diverged { t, .. }
+        | Ending::Faulted { t, .. }
+        | Ending::Refused { t, .. } => EARLY_END * (2.0 - t / duration),
     }
 }
 

@@ -21,7 +21,7 @@ pub(super) struct Machine {
     count: u32,
     /// Updates since a state was last believed.
     blind: u32,
-    /// Updates of this stop before the robot was at rest.
+    /// Updates of this stop before the robot was at rest, the first included.
     braking: u32,
     /// Whether it came to rest in this stop.
     pub(super) at_rest: bool,
@@ -83,7 +83,7 @@ impl Machine {
     }
 
     const fn stopped(self) -> Self {
-        Self { mode: Mode::Stop, count: 0, braking: 0, at_rest: false, ..self }
+        Self { mode: Mode::Stop, count: 0, braking: 1, at_rest: false, ..self }
     }
 
     /// The law ran: what was held against the inputs before is forgotten.

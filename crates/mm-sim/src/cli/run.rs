@@ -128,6 +128,7 @@ pub(super) fn execute(
         simulated_s: simulated,
         metrics: result.metrics,
         monitors: result.monitors,
+        supervisor: result.supervisor,
         digest: result.digest,
         real_time_factor: simulated / wall_s,
         wall_s,
@@ -137,7 +138,9 @@ pub(super) fn execute(
     let (outcome, exit) = match result.ending {
         Ending::Finished => (Outcome::Finished, Exit::Done),
         Ending::Stopped { .. } => (Outcome::Interrupted, Exit::Failed),
-        Ending::Diverged { .. } | Ending::Refused { .. } => (Outcome::Diverged, Exit::Failed),
+        Ending::Diverged { .. } | Ending::Faulted { .. } | Ending::Refused { .. } => {
+            (Outcome::Diverged, Exit::Failed)
+        }
     };
     recorder.finish(outcome, &summary.to_json(), &summary.digest).map_err(|error| fail(&error))?;
     if let Some(text) = ended {

@@ -182,6 +182,7 @@ fn table(report: &Report) -> String {
         let how = match failure.ended {
             Ended::Finished => format!("RMS error {} mm", short(failure.rmse_m * 1e3)),
             Ended::Diverged => format!("diverged at t = {:.3} s", failure.simulated_s),
+            Ended::Faulted => format!("fault at t = {:.3} s", failure.simulated_s),
             Ended::Refused => format!("input refused at t = {:.3} s", failure.simulated_s),
         };
         let _ = write!(out, "\nsample {} failed, {how}:\n  {}\n", failure.sample, failure.command);

@@ -1,5 +1,7 @@
 //! Rules between keys, which a schema cannot say.
 
+mod fault;
+
 use super::diagnostic::Problem;
 use super::tree::{Node, Value};
 use super::types::DEFAULT_PERIOD_S;
@@ -22,6 +24,7 @@ pub(super) fn check(root: &Node) -> Vec<Problem> {
     for (index, disturbance) in items(root, "disturbance").iter().enumerate() {
         one_disturbance(disturbance, index, &mut problems);
     }
+    fault::check(root, &mut problems);
     range(root, "tune.bounds", &mut problems);
     drawn_delay(root, &mut problems);
     if let Some(expect) = root.find("expect") {

@@ -7,9 +7,11 @@
 mod controller;
 mod disturbance;
 mod expect;
+mod fault;
 mod hardware;
 mod ranges;
 mod robot;
+mod supervisor;
 mod sweep;
 mod trajectory;
 mod tune;
@@ -24,8 +26,10 @@ pub use controller::{
 };
 pub use disturbance::{Disturbance, DisturbanceTarget, Shape};
 pub use expect::{AxesAndNorm, AxesAndSum, Bounds, Expect, Peaks, Totals};
+pub use fault::{Fault, FaultKind, FaultTarget};
 pub use hardware::{Actuators, Estimator, EstimatorKind, Motor, Motors, PoseSource, Sensors};
 pub use robot::{Friction, Link, Plant, PlantScale, Preset, Robot, RobotFields};
+pub use supervisor::Supervisor;
 pub use sweep::Sweep;
 pub(super) use trajectory::WaypointFile;
 pub use trajectory::{Motion, Segment, Trajectory, WaypointPath};
@@ -67,6 +71,9 @@ pub struct ScenarioFile {
     /// Torques and forces that act on the plant unknown to the controller; they add up.
     #[serde(default)]
     pub disturbance: Vec<Disturbance>,
+    /// What is corrupted between the sensors and the controller, or in its clock; several act in the order of the file.
+    #[serde(default)]
+    pub fault: Vec<Fault>,
     /// Bounds on the metrics of the run, checked at its end; the keys are those of `metrics` in the summary.
     #[serde(default)]
     pub expect: Expect,

@@ -193,6 +193,7 @@ fn line(row: &Row) -> String {
         Ended::Finished => "finished",
         Ended::Diverged => "diverged",
         Ended::Refused => "refused",
+        Ended::Faulted => "fault",
     };
     let values = row.values.map(|value| format!("{value:?}")).join(",");
     format!("{},{},{ended},{:?},{values},{}\n", row.sample, row.seed, row.simulated_s, row.digest)
@@ -206,6 +207,7 @@ fn read_line(text: &str) -> Option<Row> {
         "finished" => Ended::Finished,
         "diverged" => Ended::Diverged,
         "refused" => Ended::Refused,
+        "fault" => Ended::Faulted,
         _ => return None,
     };
     let simulated_s = cells.next()?.parse().ok()?;

@@ -8,6 +8,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use super::hardware::Estimator;
+use super::supervisor::Supervisor;
 use super::{NonNegative, Positive};
 
 /// The control law and its gains.
@@ -42,6 +43,9 @@ pub struct Controller {
     /// How configuration and velocity are found from what the sensors read.
     #[serde(default)]
     pub estimator: Estimator,
+    /// What checks the inputs of the controller and stops the robot where they fail.
+    #[serde(default)]
+    pub supervisor: Supervisor,
 }
 
 /// How a fuzzy system is evaluated.
