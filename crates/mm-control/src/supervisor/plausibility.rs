@@ -241,11 +241,10 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
         let stays = |before: T, after: T| before == after;
         let noise = self.params.position_noise;
         let push = noise / T::from_u32(STRAINED);
-        let pushed =
-            strained.zip(*doubt, |strain, doubt| strain * if doubt < T::ZERO { -push } else { push });
-        let mut next = way
-            .plus(pushed)
-            .zip(*doubt, |step, doubt| if doubt.abs() > noise { doubt } else { doubt * self.memory + step });
+        let mut next =
+            way.zip(*doubt, |way, doubt| if doubt.abs() > noise { doubt } else { doubt * self.memory + way });
+        next =
+            next.zip(*strained, |doubt, strain| doubt + strain * if doubt < T::ZERO { -push } else { push });
         if !(stays(before.x, now.x) && stays(before.y, now.y)) {
             next.forward = T::ZERO;
         }
