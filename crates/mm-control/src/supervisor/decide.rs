@@ -10,8 +10,10 @@ use crate::laws::InnerLaw;
 use crate::{Input, Measurement, Reference};
 
 /// Findings after which the measured state is not believed.
+///
+/// One that is out of range, but went there no faster than the robot can, is where the robot is: the law may not run there, and a stop
+/// brakes by it.
 const UNSEEN: Findings = Findings::STATE_NOT_FINITE
-    .and(Findings::STATE_RANGE)
     .and(Findings::STATE_RATE)
     .and(Findings::STATE_FROZEN)
     .and(Findings::STALE)
@@ -156,7 +158,7 @@ where
     /// The mode after an update with these findings.
     fn advance(&self, state: &mut SupervisedState<T, N>, findings: Findings, clocked: &Clocked<T>) {
         let sees = !findings.any_of(UNSEEN);
-        let plausible = sees && !findings.any_of(Findings::REFERENCE);
+        let plausible = sees && !findings.any_of(Findings::REFERENCE.and(Findings::STATE_RANGE));
         let overdue = clocked.missing > self.params().hold_periods;
         self.step(state, Brought { plausible, sees, overdue });
         state.waited = if findings.any_of(Findings::EARLY) { clocked.elapsed } else { T::ZERO };
