@@ -17,6 +17,7 @@ use crate::ControlError;
 /// Only differences between two measurements count, and they are taken modulo a whole turn: an encoder may count turns or start
 /// anew at each.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelAngles<T> {
     /// Right wheel, rad, positive forwards.
     pub right: T,
@@ -26,6 +27,11 @@ pub struct WheelAngles<T> {
 
 /// What the sensors read at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Copy + serde::Deserialize<'de>"))
+)]
 pub struct Measurement<T, const N: usize> {
     /// Configuration: the pose by whatever locates the base, the joints by their encoders.
     pub q: Configuration<T, N>,
@@ -41,6 +47,7 @@ pub struct Measurement<T, const N: usize> {
 /// measured one corrects it with a time constant of 16/(2 pi cutoff). Noise of the pose is thereby cut (to 11 % at a cutoff of
 /// 60 Hz and 1 kHz), and in the long run the measured pose decides, so that a wheel that slips does no lasting harm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Estimator<T> {
     /// The caller knows the velocity.

@@ -22,6 +22,7 @@
 //!
 //! # Features
 //! `std` adds the standard library to the dependencies, nothing else; the numbers are the same bits with and without it.
+//! `serde` makes parameters, inputs and outcomes serializable: fields in their order, arrays as tuples, numbers unchanged.
 #![cfg_attr(not(test), no_std)]
 #![deny(
     clippy::indexing_slicing,
@@ -43,6 +44,8 @@ mod signals;
 mod stack;
 pub mod supervisor;
 mod symmetric3;
+#[cfg(feature = "serde")]
+mod vector;
 
 pub use error::{ControlError, SetupError};
 pub use estimator::{Estimator, Measurement, WheelAngles};

@@ -5,17 +5,36 @@ use nalgebra::Vector3;
 
 /// Where the tip should be, and how that moves: position, velocity and acceleration in the world frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: mm_model::Real + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Reference<T> {
     /// Position p_d, m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::vector"))]
     pub position: Vector3<T>,
     /// Velocity p_d', m/s.
+    #[cfg_attr(feature = "serde", serde(with = "crate::vector"))]
     pub velocity: Vector3<T>,
     /// Acceleration p_d'', m/s^2.
+    #[cfg_attr(feature = "serde", serde(with = "crate::vector"))]
     pub acceleration: Vector3<T>,
 }
 
 /// What enters one update.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: mm_model::Real + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Input<T, const N: usize> {
     /// Configuration of the robot.
     pub q: Configuration<T, N>,
@@ -27,6 +46,7 @@ pub struct Input<T, const N: usize> {
 
 /// Numerical outcomes of an update. None of them is an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Status {
     /// A torque was cut to its limit.
     pub saturated: bool,

@@ -28,6 +28,11 @@ pub struct ControlState<T, const N: usize> {
 
 /// Parameters of the stack, not yet checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct StackParams<T, const N: usize> {
     /// Time between two updates, s.
     pub period: T,

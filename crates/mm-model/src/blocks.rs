@@ -10,11 +10,17 @@ use crate::Real;
 /// | `heading` | direction of travel, counter-clockwise from the world's x axis (the thesis's bare q) | rad |
 /// | `joints` | joint angles, base to tip | rad |
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Copy + serde::Deserialize<'de>"))
+)]
 #[expect(missing_docs, reason = "the table above says what each field is")]
 pub struct Configuration<T, const N: usize> {
     pub x: T,
     pub y: T,
     pub heading: T,
+    #[cfg_attr(feature = "serde", serde(with = "crate::array"))]
     pub joints: [T; N],
 }
 
@@ -45,12 +51,18 @@ macro_rules! block_vector {
     ($(#[$doc:meta])* $name:ident { $(#[$first_doc:meta])* $first:ident, $(#[$second_doc:meta])* $second:ident, $(#[$joints_doc:meta])* joints }) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(
+            feature = "serde",
+            serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Copy + serde::Deserialize<'de>"))
+        )]
         pub struct $name<T, const N: usize> {
             $(#[$first_doc])*
             pub $first: T,
             $(#[$second_doc])*
             pub $second: T,
             $(#[$joints_doc])*
+            #[cfg_attr(feature = "serde", serde(with = "crate::array"))]
             pub joints: [T; N],
         }
 

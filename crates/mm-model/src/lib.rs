@@ -29,6 +29,7 @@
 //!
 //! # Features
 //! `std` adds the standard library to nalgebra, nothing else; the numbers are the same bits with and without it.
+//! `serde` makes parameters, inputs and outcomes serializable: fields in their order, arrays as tuples, numbers unchanged.
 #![cfg_attr(not(test), no_std)]
 #![deny(
     clippy::indexing_slicing,
@@ -41,6 +42,8 @@
 
 mod angle;
 mod arm;
+#[cfg(feature = "serde")]
+mod array;
 mod base_only;
 mod blocks;
 mod bodies;

@@ -7,6 +7,7 @@ use crate::{ParamError, Real};
 ///
 /// Link 1 stands upright, so that its axis is the vertical; links 2 and 3 swing in the vertical plane of the arm.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Link<T> {
     /// Distance from this joint to the next, or to the tip, m.
     pub length: T,
@@ -27,14 +28,21 @@ pub struct Link<T> {
 /// Torque on an axis that turns at w: `viscous w + coulomb w / sqrt(w^2 + smoothing^2)`, against the motion.
 /// The thesis names F(q') in (3.90), never specifies it and drops it in (3.100); zero is therefore the preset.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Copy + serde::Deserialize<'de>"))
+)]
 pub struct Friction<T, const N: usize> {
     /// Viscous coefficient of each wheel, N m s/rad.
     pub wheel_viscous: T,
     /// Coulomb torque of each wheel, N m.
     pub wheel_coulomb: T,
     /// Viscous coefficient of each joint, N m s/rad.
+    #[cfg_attr(feature = "serde", serde(with = "crate::array"))]
     pub joint_viscous: [T; N],
     /// Coulomb torque of each joint, N m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::array"))]
     pub joint_coulomb: [T; N],
     /// Speed at which the Coulomb torque has reached 71 % of its size, rad/s.
     pub smoothing: T,
@@ -66,12 +74,19 @@ impl<T: Real, const N: usize> Friction<T, N> {
 
 /// What the robot must not exceed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Copy + serde::Deserialize<'de>"))
+)]
 pub struct Limits<T, const N: usize> {
     /// Lower and upper angle of each joint, rad.
+    #[cfg_attr(feature = "serde", serde(with = "crate::array"))]
     pub joints: [(T, T); N],
     /// Largest torque of each wheel, N m.
     pub wheel_torque: T,
     /// Largest torque of each joint, N m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::array"))]
     pub joint_torque: [T; N],
     /// Forward speed up to which the model's assumptions hold, m/s (2 in the thesis, section 3.2).
     pub speed: T,
@@ -79,6 +94,11 @@ pub struct Limits<T, const N: usize> {
 
 /// The parameters of a robot, not yet checked: fill the fields and give them to [`Robot::try_new`](crate::Robot::try_new).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Copy + serde::Deserialize<'de>"))
+)]
 pub struct RobotParams<T, const N: usize> {
     /// Mass of the base with its wheels, kg.
     pub base_mass: T,
@@ -97,8 +117,10 @@ pub struct RobotParams<T, const N: usize> {
     /// Acceleration of gravity, m/s^2.
     pub gravity: T,
     /// Links, base to tip.
+    #[cfg_attr(feature = "serde", serde(with = "crate::array"))]
     pub links: [Link<T>; N],
     /// Joint angles that the arm returns to where the task leaves it free, rad.
+    #[cfg_attr(feature = "serde", serde(with = "crate::array"))]
     pub rest_posture: [T; N],
     /// Friction.
     pub friction: Friction<T, N>,

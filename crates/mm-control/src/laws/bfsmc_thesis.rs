@@ -9,6 +9,7 @@ use crate::fuzzy::Bundled;
 
 /// Readings of the printed equations that contradict its proof, to see what they do. None by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Misprints {
     /// The error of (4.17), desired minus actual, in (4.30) and in the fuzzy system's input as printed: the switching force then aids s.
     pub sign: bool,

@@ -28,6 +28,11 @@ where
 
 /// Gains of the inner laws, by generalized channel: forward, yaw, joints. A law takes the ones that it knows.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Copy + serde::Deserialize<'de>"))
+)]
 pub struct Gains<T, const N: usize> {
     /// k: switching gain of (4.30), N and N m.
     pub switching: Force<T, N>,

@@ -59,6 +59,7 @@ use crate::fuzzy::{Bundled, FuzzyError};
 
 /// The laws by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum LawKind {
     /// Backstepping and sliding mode with sign.

@@ -7,8 +7,14 @@ use nalgebra::Vector3;
 ///
 /// The tip's error falls roughly as 1/(K c) whatever the inner law, so that laws with different K or c are not compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct OuterParams<T, const N: usize> {
     /// K: decay rate of the tip's error along x, y, z, 1/s.
+    #[cfg_attr(feature = "serde", serde(with = "crate::vector"))]
     pub position_gain: Vector3<T>,
     /// c: gain on the integral of nu - nu_c in the sliding variable, 1/s (4.21).
     pub sliding_gain: Velocity<T, N>,

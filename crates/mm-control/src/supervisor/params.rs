@@ -6,6 +6,11 @@ use crate::laws::gains::{EffectiveInertia, force_limits};
 
 /// Limits of plausibility, and how long each mode may last. Periods count updates.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Copy + serde::Deserialize<'de>"))
+)]
 pub struct SupervisorParams<T, const N: usize> {
     /// Largest distance of the base, and of the reference, from the origin along each axis, m.
     pub position: T,
