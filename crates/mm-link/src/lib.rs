@@ -9,8 +9,18 @@
     clippy::alloc_instead_of_core
 )]
 
+mod frame;
+mod message;
+mod node;
 mod scalar;
 mod setup;
+mod stages;
 
+pub use frame::{
+    Damage, Frame, Header, Kind, LONGEST, LONGEST_ON_WIRE, Malformed, Receiver, TooLong, VERSION, encode,
+};
+pub use message::{Command, Counters, Ready, Reason, Refusal, Report, Seen, Tick};
+pub use node::{Applied, Clock, Identity, Node, Port};
 pub use scalar::Scalar;
 pub use setup::{Fuzzy, Pace, Setup};
+pub use stages::{Stage, Stages};

@@ -1,0 +1,231 @@
+//! A supervised stack, its memory, and the order and time of its updates.
+
+use core::hint::black_box;
+
+use mm_control::supervisor::{Mode, Timing};
+use mm_control::{Input, SupervisedStack, SupervisedState};
+use mm_model::Torque;
+
+use crate::frame::Kind;
+use crate::{Clock, Command, Pace, Scalar, Seen, Setup, Stages, Tick};
+
+/// Ticks that may be left out between two in lockstep: a longer silence needs a reset. Also the most that are made up for at once.
+const LONGEST_GAP: u32 = 1000;
+
+/// What the actuators are to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Applied {
+    /// Torque of right wheel, left wheel and joints, N m; exact in either precision.
+    pub torque: [f64; 5],
+    /// What the supervisor does.
+    pub mode: Mode,
+    /// Whether mechanical brakes shall hold the robot.
+    pub brake: bool,
+}
+
+impl Applied {
+    /// Nothing, with brakes on.
+    pub(super) const fn nothing() -> Self {
+        Self { torque: [0.0; 5], mode: Mode::Stop, brake: true }
+    }
+}
+
+/// How a request stands to those before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    /// It comes after them, this far.
+    Next(u32),
+    /// It is the last one again.
+    Again,
+    /// It is older than the last one.
+    Stale,
+    /// Too many are missing before it.
+    Gap,
+}
+
+/// The target's time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Time {
+    ticks_per_second: u32,
+    /// Ticks since it was switched on.
+    now: u64,
+    seen: u32,
+}
+
+impl Time {
+    pub(super) const fn new(ticks_per_second: u32) -> Self {
+        Self { ticks_per_second, now: 0, seen: 0 }
+    }
+
+    /// Looks at the clock.
+    pub(super) fn see(&mut self, clock: &impl Clock) {
+        let ticks = clock.ticks();
+        self.now += u64::from(between(self.seen, ticks));
+        self.seen = ticks;
+    }
+
+    /// Time since a moment, s.
+    fn since<T: Scalar>(&self, moment: u64) -> T {
+        let ticks = u32::try_from(self.now.saturating_sub(moment)).unwrap_or(u32::MAX);
+        T::from_u32(ticks) / T::from_u32(self.ticks_per_second)
+    }
+}
+
+/// Ticks from one reading of a clock to another.
+const fn between(before: u32, after: u32) -> u32 {
+    after.wrapping_sub(before) & 0x00ff_ffff
+}
+
+/// A supervised stack at work.
+#[derive(Debug)]
+pub(super) struct Engine<T: Scalar> {
+    stack: SupervisedStack<T, 3>,
+    state: SupervisedState<T, 3>,
+    period: T,
+    pace: Pace,
+    /// The same in ticks of the clock.
+    period_ticks: u64,
+    last: Option<u32>,
+    /// When the last update was due, and when the last input came; in ticks of the clock.
+    updated: u64,
+    heard: u64,
+    torque: Torque<T, 3>,
+    mode: Mode,
+    brake: bool,
+    missed: u32,
+}
+
+impl<T: Scalar> Engine<T> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a positive number of ticks; the cast saturates"
+    )]
+    pub(super) fn new(stack: SupervisedStack<T, 3>, setup: &Setup<T>, time: &Time) -> Self {
+        let period = setup.stack.period;
+        Self {
+            state: stack.initial_state(),
+            stack,
+            period,
+            pace: setup.pace,
+            period_ticks: (period.to_f64() * f64::from(time.ticks_per_second)) as u64,
+            last: None,
+            updated: time.now,
+            heard: time.now,
+            torque: Torque::zero(),
+            mode: Mode::Stop,
+            brake: true,
+            missed: 0,
+        }
+    }
+
+    /// How a request stands to those before it. Numbers may begin anew after 2^32.
+    pub(super) const fn order(&self, seq: u32, kind: Kind) -> Order {
+        let Some(last) = self.last else { return Order::Next(1) };
+        match seq.wrapping_sub(last) {
+            0 => Order::Again,
+            gap if gap >= 1 << 31 => Order::Stale,
+            gap if gap > LONGEST_GAP
+                && matches!((kind, self.pace), (Kind::Tick32 | Kind::Tick64, Pace::Lockstep)) =>
+            {
+                Order::Gap
+            }
+            gap => Order::Next(gap),
+        }
+    }
+
+    /// One update.
+    pub(super) fn tick(
+        &mut self,
+        seq: u32,
+        gap: u32,
+        tick: &Tick<T>,
+        (time, clock): (&mut Time, &impl Clock),
+    ) -> Command<T> {
+        let timing = match (self.pace, self.last) {
+            (Pace::Lockstep, _) => {
+                for _ in 1..gap {
+                    self.miss(self.period);
+                }
+                tick.timing
+            }
+            (Pace::RealTime, None) => Timing { elapsed: self.period, age: tick.timing.age },
+            (Pace::RealTime, Some(_)) => {
+                // Later than its number says, by the target's own clock: older by that much.
+                let late = time.since::<T>(self.heard) - T::from_u32(gap) * self.period;
+                Timing { elapsed: time.since(self.updated), age: tick.timing.age + late.max(T::ZERO) }
+            }
+        };
+        (self.updated, self.heard, self.last) = (time.now, time.now, Some(seq));
+        let nothing = between(clock.ticks(), clock.ticks());
+        let begin = clock.ticks();
+        let command = self.update(black_box(timing), black_box(tick));
+        let took = between(begin, clock.ticks());
+        Command { cost: took.saturating_sub(nothing), ..self.keep(&command) }
+    }
+
+    #[inline(never)]
+    fn update(&mut self, timing: Timing<T>, tick: &Tick<T>) -> mm_control::Command<T, 3> {
+        let Self { stack, state, .. } = self;
+        match &tick.seen {
+            Seen::State { q, nu } => {
+                let input = Input { q: *q, nu: *nu, reference: tick.reference };
+                stack.update(state, timing, &input)
+            }
+            Seen::Measured(measurement) => {
+                stack.update_measured(state, timing, measurement, &tick.reference)
+            }
+        }
+    }
+
+    fn miss(&mut self, elapsed: T) {
+        let command = self.stack.missed(&mut self.state, elapsed);
+        self.missed = self.missed.wrapping_add(1);
+        self.keep(&command);
+    }
+
+    fn keep(&mut self, command: &mm_control::Command<T, 3>) -> Command<T> {
+        let mm_control::Command { torque, mode, findings, brake, .. } = *command;
+        (self.torque, self.mode, self.brake) = (torque, mode, brake);
+        let stages = command.output.as_ref().map_or_else(Stages::default, Stages::of);
+        Command { torque, mode, findings, brake, stages, cost: 0 }
+    }
+
+    /// Periods that have gone by without an input, where the target's clock counts.
+    pub(super) fn keep_pace(&mut self, time: &Time) -> u32 {
+        if self.pace != Pace::RealTime || self.last.is_none() {
+            return 0;
+        }
+        let before = self.missed;
+        // Half a period of grace; no more at once than a bus that was blocked for a second may leave behind.
+        for _ in 0..LONGEST_GAP {
+            if time.now.saturating_sub(self.updated) < self.period_ticks + self.period_ticks / 2 {
+                break;
+            }
+            self.updated += self.period_ticks;
+            self.miss(self.period);
+        }
+        self.missed.wrapping_sub(before)
+    }
+
+    /// Starts anew, at the operator's wish.
+    pub(super) fn reset(&mut self, seq: u32) {
+        self.stack.reset(&mut self.state);
+        (self.torque, self.mode, self.brake) = (Torque::zero(), Mode::Stop, true);
+        self.last = Some(seq);
+    }
+
+    pub(super) const fn last(&self) -> Option<u32> {
+        self.last
+    }
+
+    pub(super) const fn missed(&self) -> u32 {
+        self.missed
+    }
+
+    pub(super) fn applied(&self) -> Applied {
+        let Torque { right, left, joints: [a, b, c] } = self.torque;
+        let torque = [right, left, a, b, c].map(T::to_f64);
+        Applied { torque, mode: self.mode, brake: self.brake }
+    }
+}
