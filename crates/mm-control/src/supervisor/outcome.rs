@@ -14,6 +14,7 @@ use crate::Output;
 ///    '------ plausible inputs for recovery_periods: starts anew -------------------'      reset, and nothing else <---------'
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mode {
     /// The law decides.
     #[default]
@@ -28,6 +29,7 @@ pub enum Mode {
 
 /// What the clock of the caller says of an update.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Timing<T> {
     /// Time since the update before, s; the period for the first.
     pub elapsed: T,
@@ -58,6 +60,7 @@ impl<T: Real> Timing<T> {
 
 /// What was wrong with an input; several at once are possible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Findings(u16);
 
 impl Findings {
