@@ -3,6 +3,7 @@
 //! Each job is a module; what they share is in [`shell`] (processes), [`parallel`] (threads) and [`table`] (output).
 
 mod bench_targets;
+mod capi;
 mod ci;
 mod claim;
 mod count;
@@ -33,6 +34,8 @@ cargo xtask <job>
   bench-instructions  counts the instructions of each operation with callgrind [--json] [--target-cpu CPU]
   fuzz                feeds any text to the readers of .fis and FCL, with nightly and cargo-fuzz [--seconds N: each target]
   bench-targets       counts the instructions of the fuzzy engines on microcontrollers, under QEMU [--json] [--fallback]
+  capi                checks mm_control.h, builds libmm_control.a, runs C programs here and under QEMU [--bless: writes the header]
+                      [--target T: only the archive] [--full: all targets] [--fallback]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -104,6 +107,16 @@ fn run() -> Result<ExitCode> {
             let fallback = arguments.flag("--fallback");
             arguments.finish()?;
             bench_targets::run(json, fallback)?
+        }
+        "capi" => {
+            let request = capi::Request {
+                bless: arguments.flag("--bless"),
+                full: arguments.flag("--full"),
+                fallback: arguments.flag("--fallback"),
+                target: arguments.value("--target")?,
+            };
+            arguments.finish()?;
+            capi::run(&request)?
         }
         "real-time" => {
             let runs = arguments.value("--runs")?;

@@ -2,8 +2,10 @@
 //!
 //! The order is the same everywhere: pointers, then values, then the controller, and outputs last and only where all went well.
 
+use mm_control::ControlStack;
+
 use crate::MM_ABI_VERSION;
-use crate::controller::{Controller, Scalar};
+use crate::controller::{self, Controller, Scalar};
 use crate::params::Params;
 use crate::raw::{self, Target};
 use crate::status::{Problem, Refusal, Status};
@@ -92,10 +94,25 @@ pub(crate) unsafe fn init<T: Scalar>(
         let place = unsafe { raw::vacant::<T>(storage) }?;
         // SAFETY: as above.
         let params = unsafe { raw::read(params) }?;
-        place.put(Held { mark: T::MARK, controller: Controller::try_new(&params)? });
-        Ok(())
+        fill(place, &params)
     })();
     told(problem, made)
+}
+
+/// Makes the controller of parameters in its place; two steps out of line for the sake of the stack.
+#[inline(never)]
+fn fill<T: Scalar>(place: Target<Held<T>>, params: &Params<T>) -> Result<(), Refusal> {
+    finish(place, &controller::stack(params)?, params)
+}
+
+#[inline(never)]
+fn finish<T: Scalar>(
+    place: Target<Held<T>>,
+    stack: &ControlStack<T, 3>,
+    params: &Params<T>,
+) -> Result<(), Refusal> {
+    place.put(Held { mark: T::MARK, controller: Controller::try_new(stack, params)? });
+    Ok(())
 }
 
 /// # Safety

@@ -2,7 +2,7 @@
 
 use mm_control::fuzzy::fixed::{SMOOTH_Q15, SMOOTH_SURFACE, THESIS_Q15, THESIS_SURFACE};
 use mm_control::fuzzy::{Bundled, Curve, FuzzyError};
-use mm_control::laws::FuzzyTerm;
+use mm_control::laws::{FuzzyTerm, Law as StackLaw};
 use mm_control::{
     Command, ControlStack, ControlState, LawKind, Output, SupervisedStack, SupervisedState, Timing,
 };
@@ -40,28 +40,20 @@ pub(crate) enum Controller<T: Real> {
 }
 
 impl<T: Scalar> Controller<T> {
-    /// A controller of parameters, nothing integrated, learned or measured.
-    pub(crate) fn try_new(params: &Params<T>) -> Result<Self, Refusal> {
-        let kind = Law::of(params.law)?;
-        let engine = FuzzyEngine::of(params.fuzzy_engine)?;
-        let robot = Robot::try_new(params.robot.of())?;
-        let parts = params.stack()?;
-        let stack = match term(kind, engine)? {
-            Some(term) => ControlStack::with_fuzzy(robot, kind, term, parts)?,
-            None => ControlStack::try_new(robot, kind, parts)?,
-        };
-        let stack = stack.with_delay(params.estimator.delay_s)?;
+    /// A controller of a stack and what else the parameters ask for, nothing integrated, learned or measured.
+    #[inline(never)]
+    pub(crate) fn try_new(stack: &ControlStack<T, 3>, params: &Params<T>) -> Result<Self, Refusal> {
         Ok(if params.supervised == 0 {
-            Self::Plain { stack, state: stack.initial_state() }
+            Self::Plain { stack: *stack, state: stack.initial_state() }
         } else {
-            let stack = SupervisedStack::try_new(stack, params.supervisor.of())?;
-            Self::Supervised { stack, state: stack.initial_state() }
+            let stack = SupervisedStack::try_new(*stack, params.supervisor.of())?;
+            Self::Supervised { state: stack.initial_state(), stack }
         })
     }
 
     /// The same memory under other parameters.
     pub(crate) fn retuned(&self, params: &Params<T>) -> Result<Self, Refusal> {
-        Ok(match (Self::try_new(params)?, self) {
+        Ok(match (Self::try_new(&stack(params)?, params)?, self) {
             (Self::Plain { stack, .. }, &Self::Plain { state, .. }) => Self::Plain { stack, state },
             (Self::Supervised { stack, .. }, &Self::Supervised { state, .. }) => {
                 Self::Supervised { stack, state }
@@ -125,11 +117,34 @@ impl<T: Scalar> Controller<T> {
     }
 }
 
+/// The stack of parameters.
+///
+/// Out of line, as its parts are: their temporaries, which are large, then do not lie on the stack at the same time.
+#[inline(never)]
+pub(crate) fn stack<T: Scalar>(params: &Params<T>) -> Result<ControlStack<T, 3>, Refusal> {
+    let robot = Robot::try_new(params.robot.of())?;
+    let law = law(params, &robot)?;
+    let stack = ControlStack::with_law(robot, law, params.stack()?)?;
+    Ok(stack.with_delay(params.estimator.delay_s)?)
+}
+
+/// The inner law of parameters.
+#[inline(never)]
+fn law<T: Scalar>(params: &Params<T>, robot: &Robot<T, 3>) -> Result<StackLaw<T, 3>, Refusal> {
+    let kind = Law::of(params.law)?;
+    let gains = params.gains.of();
+    Ok(match term(kind, FuzzyEngine::of(params.fuzzy_engine)?)? {
+        Some(term) => StackLaw::with_fuzzy(kind, robot, &gains, term)?,
+        None => StackLaw::try_new(kind, robot, &gains)?,
+    })
+}
+
 /// Half the input range of the bundled systems, and of their outputs, as they were compiled.
 const SMOOTH_RANGES: (f64, f64) = (1.0, 4.0 / 3.0);
 const THESIS_RANGES: (f64, f64) = (1.4, 1.0);
 
 /// The bundled fuzzy system of a law in the form asked for; none where the law makes its own.
+#[inline(never)]
 fn term<T: Scalar>(kind: LawKind, engine: FuzzyEngine) -> Result<Option<FuzzyTerm<T>>, Refusal> {
     let (rules, q15, surface, ranges) = match (kind, engine) {
         (_, FuzzyEngine::Default) => return Ok(None),
