@@ -244,7 +244,7 @@ enum mm_status
 #if __STDC_VERSION__ >= 202311L
 typedef enum mm_status mm_status;
 #else
-typedef int32_t mm_status;
+typedef int32_t mm_status; /**< A number of enum mm_status. */
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -301,7 +301,7 @@ enum mm_law
 #if __STDC_VERSION__ >= 202311L
 typedef enum mm_law mm_law;
 #else
-typedef int32_t mm_law;
+typedef int32_t mm_law; /**< A number of enum mm_law. */
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -338,7 +338,7 @@ enum mm_fuzzy_engine
 #if __STDC_VERSION__ >= 202311L
 typedef enum mm_fuzzy_engine mm_fuzzy_engine;
 #else
-typedef int32_t mm_fuzzy_engine;
+typedef int32_t mm_fuzzy_engine; /**< A number of enum mm_fuzzy_engine. */
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -367,7 +367,7 @@ enum mm_estimator_kind
 #if __STDC_VERSION__ >= 202311L
 typedef enum mm_estimator_kind mm_estimator_kind;
 #else
-typedef int32_t mm_estimator_kind;
+typedef int32_t mm_estimator_kind; /**< A number of enum mm_estimator_kind. */
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -400,7 +400,7 @@ enum mm_mode
 #if __STDC_VERSION__ >= 202311L
 typedef enum mm_mode mm_mode;
 #else
-typedef int32_t mm_mode;
+typedef int32_t mm_mode; /**< A number of enum mm_mode. */
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -1887,17 +1887,23 @@ mm_status mm_controller_missed(mm_controller *controller,
 void mm_panic_reached(void);
 
 /**
- * mm_params_thesis in single precision.
+ * The same as mm_params_thesis in single precision.
+ *
+ * @copydetails mm_params_thesis
  */
 mm_status mmf_params_thesis(mmf_params *params);
 
 /**
- * mm_params_defaults in single precision.
+ * The same as mm_params_defaults in single precision.
+ *
+ * @copydetails mm_params_defaults
  */
 mm_status mmf_params_defaults(mmf_params *params, mm_problem *problem);
 
 /**
- * mm_controller_init in single precision.
+ * The same as mm_controller_init in single precision.
+ *
+ * @copydetails mm_controller_init
  */
 mm_status mmf_controller_init(mmf_controller *controller,
                               size_t size,
@@ -1906,17 +1912,23 @@ mm_status mmf_controller_init(mmf_controller *controller,
                               mm_problem *problem);
 
 /**
- * mm_controller_retune in single precision.
+ * The same as mm_controller_retune in single precision.
+ *
+ * @copydetails mm_controller_retune
  */
 mm_status mmf_controller_retune(mmf_controller *controller, const mmf_params *params, mm_problem *problem);
 
 /**
- * mm_controller_reset in single precision.
+ * The same as mm_controller_reset in single precision.
+ *
+ * @copydetails mm_controller_reset
  */
 mm_status mmf_controller_reset(mmf_controller *controller);
 
 /**
- * mm_controller_update in single precision.
+ * The same as mm_controller_update in single precision.
+ *
+ * @copydetails mm_controller_update
  */
 mm_status mmf_controller_update(mmf_controller *controller,
                                 const mmf_input *input,
@@ -1924,7 +1936,9 @@ mm_status mmf_controller_update(mmf_controller *controller,
                                 mmf_signals *signals);
 
 /**
- * mm_controller_update_measured in single precision.
+ * The same as mm_controller_update_measured in single precision.
+ *
+ * @copydetails mm_controller_update_measured
  */
 mm_status mmf_controller_update_measured(mmf_controller *controller,
                                          const mmf_measurement *measurement,
@@ -1932,7 +1946,9 @@ mm_status mmf_controller_update_measured(mmf_controller *controller,
                                          mmf_signals *signals);
 
 /**
- * mm_controller_step in single precision.
+ * The same as mm_controller_step in single precision.
+ *
+ * @copydetails mm_controller_step
  */
 mm_status mmf_controller_step(mmf_controller *controller,
                               const mmf_timing *timing,
@@ -1941,7 +1957,9 @@ mm_status mmf_controller_step(mmf_controller *controller,
                               mmf_signals *signals);
 
 /**
- * mm_controller_step_measured in single precision.
+ * The same as mm_controller_step_measured in single precision.
+ *
+ * @copydetails mm_controller_step_measured
  */
 mm_status mmf_controller_step_measured(mmf_controller *controller,
                                        const mmf_timing *timing,
@@ -1950,7 +1968,9 @@ mm_status mmf_controller_step_measured(mmf_controller *controller,
                                        mmf_signals *signals);
 
 /**
- * mm_controller_missed in single precision.
+ * The same as mm_controller_missed in single precision.
+ *
+ * @copydetails mm_controller_missed
  */
 mm_status mmf_controller_missed(mmf_controller *controller, const mmf_timing *timing, mmf_command *command);
 
@@ -1960,6 +1980,7 @@ mm_status mmf_controller_missed(mmf_controller *controller, const mmf_timing *ti
 
 #endif  /* MM_CONTROL_H */
 
+/** @cond */
 #ifndef MM_CONTROL_ASSERTED_H
 #define MM_CONTROL_ASSERTED_H
 /* The library asserts the same sizes where it is built. */
@@ -1984,3 +2005,4 @@ MM_ASSERT_(size_of_command, sizeof(mm_command) == 64 && sizeof(mmf_command) == 4
 MM_ASSERT_(size_of_signals, sizeof(mm_signals) == 424 && sizeof(mmf_signals) == 212);
 #undef MM_ASSERT_
 #endif /* MM_CONTROL_ASSERTED_H */
+/** @endcond */

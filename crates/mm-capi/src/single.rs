@@ -7,21 +7,27 @@ use crate::status::{Problem, Status};
 use crate::storage::SingleController;
 use crate::values::{Command, Input, Measurement, Output, Signals, Timing};
 
-/// mm_params_thesis in single precision.
+/// The same as mm_params_thesis in single precision.
+///
+/// @copydetails mm_params_thesis
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_params_thesis(params: *mut Params<f32>) -> Status {
     // SAFETY: the caller's promises are those asked for.
     unsafe { calls::thesis(params) }
 }
 
-/// mm_params_defaults in single precision.
+/// The same as mm_params_defaults in single precision.
+///
+/// @copydetails mm_params_defaults
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_params_defaults(params: *mut Params<f32>, problem: *mut Problem) -> Status {
     // SAFETY: the caller's promises are those asked for.
     unsafe { calls::defaults(params, problem) }
 }
 
-/// mm_controller_init in single precision.
+/// The same as mm_controller_init in single precision.
+///
+/// @copydetails mm_controller_init
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_controller_init(
     controller: *mut SingleController,
@@ -34,7 +40,9 @@ pub unsafe extern "C" fn mmf_controller_init(
     unsafe { calls::init::<f32>(controller, Header { size, abi_version }, params, problem) }
 }
 
-/// mm_controller_retune in single precision.
+/// The same as mm_controller_retune in single precision.
+///
+/// @copydetails mm_controller_retune
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_controller_retune(
     controller: *mut SingleController,
@@ -45,14 +53,18 @@ pub unsafe extern "C" fn mmf_controller_retune(
     unsafe { calls::retune::<f32>(controller, params, problem) }
 }
 
-/// mm_controller_reset in single precision.
+/// The same as mm_controller_reset in single precision.
+///
+/// @copydetails mm_controller_reset
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_controller_reset(controller: *mut SingleController) -> Status {
     // SAFETY: the caller's promises are those asked for.
     unsafe { calls::reset::<f32>(controller) }
 }
 
-/// mm_controller_update in single precision.
+/// The same as mm_controller_update in single precision.
+///
+/// @copydetails mm_controller_update
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_controller_update(
     controller: *mut SingleController,
@@ -65,7 +77,9 @@ pub unsafe extern "C" fn mmf_controller_update(
     unsafe { calls::update(controller, input, outputs, Controller::update) }
 }
 
-/// mm_controller_update_measured in single precision.
+/// The same as mm_controller_update_measured in single precision.
+///
+/// @copydetails mm_controller_update_measured
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_controller_update_measured(
     controller: *mut SingleController,
@@ -78,7 +92,9 @@ pub unsafe extern "C" fn mmf_controller_update_measured(
     unsafe { calls::update(controller, measurement, outputs, Controller::update_measured) }
 }
 
-/// mm_controller_step in single precision.
+/// The same as mm_controller_step in single precision.
+///
+/// @copydetails mm_controller_step
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_controller_step(
     controller: *mut SingleController,
@@ -92,7 +108,9 @@ pub unsafe extern "C" fn mmf_controller_step(
     unsafe { calls::stepped(controller, timing, input, outputs, Controller::step) }
 }
 
-/// mm_controller_step_measured in single precision.
+/// The same as mm_controller_step_measured in single precision.
+///
+/// @copydetails mm_controller_step_measured
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_controller_step_measured(
     controller: *mut SingleController,
@@ -106,7 +124,9 @@ pub unsafe extern "C" fn mmf_controller_step_measured(
     unsafe { calls::stepped(controller, timing, measurement, outputs, Controller::step_measured) }
 }
 
-/// mm_controller_missed in single precision.
+/// The same as mm_controller_missed in single precision.
+///
+/// @copydetails mm_controller_missed
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mmf_controller_missed(
     controller: *mut SingleController,

@@ -64,7 +64,11 @@ fn generated() -> Result<String> {
     let builder = cbindgen::Builder::new().with_config(config).with_src(package.join("src/lib.rs"));
     let mut bytes = Vec::new();
     builder.generate().context("cbindgen")?.write(&mut bytes);
-    let text = String::from_utf8(bytes)?.replace("\n\n\n", "\n\n").trim_start().to_owned();
+    let mut text = String::from_utf8(bytes)?.replace("\n\n\n", "\n\n").trim_start().to_owned();
+    for name in ["status", "law", "fuzzy_engine", "estimator_kind", "mode"] {
+        let alias = format!("typedef int32_t mm_{name};");
+        text = text.replace(&alias, &format!("{alias} /**< A number of enum mm_{name}. */"));
+    }
     ensure!(
         !text.contains("_f64") && !text.contains("_f32"),
         "a struct without a name for C: add it to TWINS"

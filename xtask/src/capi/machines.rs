@@ -151,7 +151,7 @@ fn is_double(name: &str) -> bool {
 
 /// Bytes of code and constants.
 fn flash(program: &Path) -> Result<u64> {
-    let size = output(&mut Command::new("arm-none-eabi-size").arg(program))?;
+    let size = output(Command::new("arm-none-eabi-size").arg(program))?;
     let line = size.lines().nth(1).context("arm-none-eabi-size says nothing")?;
     let numbers: Vec<u64> = line.split_whitespace().take(2).filter_map(|word| word.parse().ok()).collect();
     Ok(numbers.iter().sum())

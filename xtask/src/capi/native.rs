@@ -1,9 +1,10 @@
 //! The C programs on this machine: plain, under valgrind and with sanitizers; the header in C99 and C++17.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
 use super::{archive, header};
 use crate::shell::{answers, command, command_with, install, output, root, run, target_directory};
@@ -42,6 +43,7 @@ pub(super) fn check() -> Result<Vec<Lines>> {
     let archive = built.first().context("no archive")?;
     speak(&["cc", "-std=c99", "-x", "c"])?;
     speak(&["c++", "-std=c++17", "-x", "c++"])?;
+    quick_start(archive)?;
     misuse(archive)?;
     let lines: Vec<Lines> =
         PRECISIONS.iter().map(|precision| ticks(archive, precision)).collect::<Result<_>>()?;
@@ -61,6 +63,18 @@ fn speak(compiler: &[&str]) -> Result<()> {
     let source = root().join("crates/mm-capi/tests/c/twice.c");
     let (program, options) = compiler.split_first().context("no compiler")?;
     run(compiled(program, options).arg("-fsyntax-only").arg(source))
+}
+
+/// The example of docs/c.md.
+fn quick_start(archive: &Path) -> Result<()> {
+    let text = fs::read_to_string(root().join("docs/c.md")).context("docs/c.md")?;
+    let (_, rest) = text.split_once("```c\n").context("docs/c.md has no example")?;
+    let (program, _) = rest.split_once("```").context("the example has no end")?;
+    let source = target_directory()?.join("capi/quick.c");
+    fs::write(&source, program)?;
+    let said = output(&mut command(linked(&[&source], archive, "quick", &["-std=c99"])?))?;
+    ensure!(said.starts_with("shoulder "), "the example of docs/c.md says: {said}");
+    Ok(())
 }
 
 /// The calls that are wrong, three times.
