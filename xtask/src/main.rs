@@ -12,6 +12,7 @@ mod fuzzy_peers;
 mod grid;
 mod mmsim;
 mod parallel;
+mod qemu;
 mod real_time;
 mod scenarios;
 mod shell;
@@ -36,6 +37,8 @@ cargo xtask <job>
   bench-targets       counts the instructions of the fuzzy engines on microcontrollers, under QEMU [--json] [--fallback]
   capi                checks mm_control.h, builds libmm_control.a, runs C programs here and under QEMU [--bless: writes the header]
                       [--target T: only the archive] [--full: all targets] [--fallback]
+  qemu                runs the programs of firmware/ on emulated microcontrollers and compares every bit of the controller with this machine
+                      [--full: all ticks] [--scenario NAME] [--fallback] [--json]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -117,6 +120,12 @@ fn run() -> Result<ExitCode> {
             };
             arguments.finish()?;
             capi::run(&request)?
+        }
+        "qemu" => {
+            let (full, fallback) = (arguments.flag("--full"), arguments.flag("--fallback"));
+            let (json, scenario) = (arguments.flag("--json"), arguments.value("--scenario")?);
+            arguments.finish()?;
+            qemu::run(&qemu::Options { full, fallback, json, scenario })?
         }
         "real-time" => {
             let runs = arguments.value("--runs")?;

@@ -10,8 +10,9 @@ use anyhow::{Context, Result};
 
 use crate::shell::{answers, cargo, command, command_with, install, output, root, run, target_directory};
 
-/// A Cortex-M4F, and a Cortex-M0, which has neither a divider nor compare-and-swap.
-const TARGETS: [&str; 2] = ["thumbv7em-none-eabihf", "thumbv6m-none-eabi"];
+/// A Cortex-M4F, a Cortex-M3, a Cortex-M0, which has neither a divider nor compare-and-swap, and a RISC-V without floating point.
+const TARGETS: [&str; 4] =
+    ["thumbv7em-none-eabihf", "thumbv7m-none-eabi", "thumbv6m-none-eabi", "riscv32imac-unknown-none-elf"];
 
 /// The crates that have to build there.
 const CRATES: [&str; 2] = ["mm-model", "mm-control"];

@@ -1,17 +1,16 @@
 //! Frames: header, body and check sum, made into bytes without a zero and ended by one.
 
-use cobs::{DecodeResult, DecoderState};
-use crc::{CRC_32_ISO_HDLC, Crc};
+use cobs::{CobsEncoder, DecodeResult, DecoderState};
+use crc::{CRC_32_ISO_HDLC, Crc, Digest, Table};
 use heapless::Vec;
-use postcard::ser_flavors::crc::CrcModifier;
-use postcard::ser_flavors::{Cobs, Slice};
+use postcard::ser_flavors::Flavor;
 use serde::{Serialize, de::DeserializeOwned};
 
 /// Version of the protocol; a frame of another one is not read.
 pub const VERSION: u8 = 1;
 
-/// Bytes of the longest frame before it is made free of zeros: a setup in double precision.
-pub const LONGEST: usize = 1408;
+/// Bytes of the longest frame before it is made free of zeros: a setup.
+pub const LONGEST: usize = if cfg!(feature = "double") { 1408 } else { 736 };
 
 /// Bytes of the longest frame on the wire.
 pub const LONGEST_ON_WIRE: usize = LONGEST + LONGEST / 254 + 2;
@@ -23,7 +22,7 @@ const HEADER: usize = 8;
 const SUM: usize = 4;
 
 /// The check sum of a frame, and of the stages' signals: CRC-32 of IEEE 802.3.
-pub(crate) const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+pub(crate) static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// What a frame is; those of a target have the highest bit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -129,6 +128,7 @@ impl Frame<'_> {
     ///
     /// # Errors
     /// [`Malformed`], where bytes are missing, left over or no value of the type.
+    #[inline(never)]
     pub fn body<B: DeserializeOwned>(&self) -> Result<B, Malformed> {
         match postcard::take_from_bytes(self.body) {
             Ok((body, [])) => Ok(body),
@@ -167,9 +167,35 @@ pub fn encode<'a, B: Serialize>(
     body: &B,
     buffer: &'a mut [u8],
 ) -> Result<&'a mut [u8], TooLong> {
-    let wire = Cobs::try_new(Slice::new(buffer)).map_err(|_| TooLong)?;
-    let summed = CrcModifier::new(wire, CRC.digest());
-    postcard::serialize_with_flavor(&(header.bytes(), body), summed).map_err(|_| TooLong)
+    let wire = Wire { bytes: CobsEncoder::new(buffer), sum: CRC.digest() };
+    let length = postcard::serialize_with_flavor(&(header.bytes(), body), wire).map_err(|_| TooLong)?;
+    *buffer.get_mut(length).ok_or(TooLong)? = 0;
+    buffer.get_mut(..=length).ok_or(TooLong)
+}
+
+/// What a serializer writes to: bytes without a zero, and their sum.
+struct Wire<'a> {
+    bytes: CobsEncoder<'a>,
+    sum: Digest<'static, u32, Table<1>>,
+}
+
+impl Flavor for Wire<'_> {
+    type Output = usize;
+
+    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
+        self.try_extend(&[byte])
+    }
+
+    fn try_extend(&mut self, bytes: &[u8]) -> postcard::Result<()> {
+        self.sum.update(bytes);
+        self.bytes.push(bytes).map_err(|_| postcard::Error::SerializeBufferFull)
+    }
+
+    fn finalize(mut self) -> postcard::Result<usize> {
+        let sum = self.sum.finalize().to_le_bytes();
+        self.bytes.push(&sum).map_err(|_| postcard::Error::SerializeBufferFull)?;
+        Ok(self.bytes.finalize())
+    }
 }
 
 /// Takes the bytes of a wire and finds the frames among them.

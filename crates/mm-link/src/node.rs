@@ -5,12 +5,13 @@ mod engine;
 use core::fmt::Write as _;
 
 use heapless::{String, Vec};
+use mm_control::{SetupError, SupervisedStack};
 use serde::Serialize;
 
 use crate::frame::{Frame, Header, Kind, Receiver, encode};
 use crate::{Counters, Ready, Reason, Refusal, Report, Scalar, Setup, Tick};
 pub use engine::Applied;
-use engine::{Engine, Order, Time};
+use engine::{Driven, Engine, Order, Time};
 
 /// A wire that bytes go over.
 pub trait Port {
@@ -66,7 +67,28 @@ struct Core {
 enum Machine {
     None,
     Single(Engine<f32>),
+    #[cfg(feature = "double")]
     Double(Engine<f64>),
+}
+
+impl Machine {
+    fn engine(&self) -> Option<&dyn Driven> {
+        match self {
+            Self::None => None,
+            Self::Single(engine) => Some(engine),
+            #[cfg(feature = "double")]
+            Self::Double(engine) => Some(engine),
+        }
+    }
+
+    fn engine_mut(&mut self) -> Option<&mut dyn Driven> {
+        match self {
+            Self::None => None,
+            Self::Single(engine) => Some(engine),
+            #[cfg(feature = "double")]
+            Self::Double(engine) => Some(engine),
+        }
+    }
 }
 
 /// Bytes of the longest answer on the wire: a refusal.
@@ -113,11 +135,7 @@ impl Node {
     /// end of a session.
     #[must_use]
     pub fn applied(&self) -> Applied {
-        match &self.core.machine {
-            Machine::None => Applied::nothing(),
-            Machine::Single(engine) => engine.applied(),
-            Machine::Double(engine) => engine.applied(),
-        }
+        self.core.machine.engine().map_or_else(Applied::nothing, Driven::applied)
     }
 
     /// Frames and updates up to now.
@@ -133,8 +151,11 @@ impl Core {
         match kind {
             Kind::Hello => self.introduce(frame, port),
             Kind::Query => self.send(frame, Kind::Report, &self.report(), port),
-            Kind::Setup32 => self.set_up(frame, Machine::Single, port),
-            Kind::Setup64 => self.set_up(frame, Machine::Double, port),
+            Kind::Setup32 => self.set_up::<f32>(frame, port),
+            #[cfg(feature = "double")]
+            Kind::Setup64 => self.set_up::<f64>(frame, port),
+            #[cfg(not(feature = "double"))]
+            Kind::Setup64 => self.refuse(frame, Reason::Precision, port),
             _ if matches!(self.machine, Machine::None) => self.refuse(frame, Reason::NotSetUp, port),
             _ if session != self.session => self.refuse(frame, Reason::Session, port),
             Kind::Tick32 | Kind::Tick64 | Kind::Reset => self.in_order(frame, port, clock),
@@ -149,21 +170,16 @@ impl Core {
     /// Requests that may be done once only, and in their order.
     fn in_order(&mut self, frame: &Frame<'_>, port: &mut impl Port, clock: &impl Clock) {
         let seq = frame.header.seq;
-        let order = match &self.machine {
-            Machine::None => return,
-            Machine::Single(engine) => engine.order(seq, frame.header.kind),
-            Machine::Double(engine) => engine.order(seq, frame.header.kind),
-        };
-        match order {
+        let Some(engine) = self.machine.engine_mut() else { return };
+        match engine.order(seq, frame.header.kind) {
             Order::Next(gap) => match frame.header.kind {
                 Kind::Tick32 => self.tick::<f32>(frame, gap, port, clock),
+                #[cfg(feature = "double")]
                 Kind::Tick64 => self.tick::<f64>(frame, gap, port, clock),
+                #[cfg(not(feature = "double"))]
+                Kind::Tick64 => self.refuse(frame, Reason::Precision, port),
                 _ => {
-                    match &mut self.machine {
-                        Machine::None => {}
-                        Machine::Single(engine) => engine.reset(seq),
-                        Machine::Double(engine) => engine.reset(seq),
-                    }
+                    engine.reset(seq);
                     self.keep(frame, Kind::Done, &(), port);
                 }
             },
@@ -194,32 +210,28 @@ impl Core {
         self.keep(frame, T::COMMAND, &command, port);
     }
 
-    #[inline(never)]
-    fn set_up<T: Scalar>(&mut self, frame: &Frame<'_>, wrap: fn(Engine<T>) -> Machine, port: &mut impl Port) {
+    fn set_up<T: Hosted>(&mut self, frame: &Frame<'_>, port: &mut impl Port) {
         let session = frame.header.session;
         if session == self.session && !matches!(self.machine, Machine::None) {
             // The answer was lost: nothing is set up a second time.
             count(&mut self.counters.duplicates);
             return self.send(frame, Kind::Done, &(), port);
         }
-        let Ok(setup) = frame.body::<Setup<T>>() else {
-            return self.refuse(frame, Reason::Malformed, port);
-        };
-        match setup.build() {
-            Ok(stack) => {
-                self.machine = wrap(Engine::new(stack, &setup, &self.time));
+        self.machine = Machine::None;
+        match install::<T>(&mut self.machine, frame, &self.time) {
+            Ok(()) => {
                 self.session = session;
                 self.answer.clear();
                 self.send(frame, Kind::Done, &(), port);
             }
-            Err(error) => {
-                self.machine = Machine::None;
+            Err(Some(error)) => {
                 let mut text = String::new();
                 // What does not fit is left out.
                 let _ = write!(text, "{error}");
                 count(&mut self.counters.refused);
                 self.send(frame, Kind::Refused, &Refusal { reason: Reason::Setup, text }, port);
             }
+            Err(None) => self.refuse(frame, Reason::Malformed, port),
         }
     }
 
@@ -233,21 +245,14 @@ impl Core {
     }
 
     fn report(&self) -> Report {
-        let (mode, last) = match &self.machine {
-            Machine::None => (None, None),
-            Machine::Single(engine) => (Some(engine.applied().mode), engine.last()),
-            Machine::Double(engine) => (Some(engine.applied().mode), engine.last()),
-        };
-        Report { counters: self.counters, mode, last }
+        let engine = self.machine.engine();
+        let mode = engine.map(|engine| engine.applied().mode);
+        Report { counters: self.counters, mode, last: engine.and_then(Driven::last) }
     }
 
     /// Periods that have gone by without a tick, where the target's clock counts.
     fn keep_pace(&mut self) {
-        let missed = match &mut self.machine {
-            Machine::None => 0,
-            Machine::Single(engine) => engine.keep_pace(&self.time),
-            Machine::Double(engine) => engine.keep_pace(&self.time),
-        };
+        let missed = self.machine.engine_mut().map_or(0, |engine| engine.keep_pace(&self.time));
         self.counters.missed = self.counters.missed.saturating_add(missed);
     }
 
@@ -281,19 +286,45 @@ fn count(counter: &mut u32) {
     *counter = counter.saturating_add(1);
 }
 
+/// Reads a setup and puts its engine into the machine. What there is on the stack meanwhile is all gone afterwards: the
+/// stack is deepest here.
+#[inline(never)]
+fn install<T: Hosted>(
+    machine: &mut Machine,
+    frame: &Frame<'_>,
+    time: &Time,
+) -> Result<(), Option<SetupError>> {
+    let setup = frame.body::<Setup<T>>().map_err(|_| None)?;
+    let stack = setup.build()?;
+    T::start(machine, &stack, &setup, time);
+    Ok(())
+}
+
 /// A precision and the engine that has it.
 trait Hosted: Scalar {
     fn engine(machine: &mut Machine) -> Option<&mut Engine<Self>>;
+    fn start(machine: &mut Machine, stack: &SupervisedStack<Self, 3>, setup: &Setup<Self>, time: &Time);
 }
 
 impl Hosted for f32 {
     fn engine(machine: &mut Machine) -> Option<&mut Engine<Self>> {
         if let Machine::Single(engine) = machine { Some(engine) } else { None }
     }
+
+    #[inline(never)]
+    fn start(machine: &mut Machine, stack: &SupervisedStack<Self, 3>, setup: &Setup<Self>, time: &Time) {
+        *machine = Machine::Single(Engine::new(stack, setup, time));
+    }
 }
 
+#[cfg(feature = "double")]
 impl Hosted for f64 {
     fn engine(machine: &mut Machine) -> Option<&mut Engine<Self>> {
         if let Machine::Double(engine) = machine { Some(engine) } else { None }
+    }
+
+    #[inline(never)]
+    fn start(machine: &mut Machine, stack: &SupervisedStack<Self, 3>, setup: &Setup<Self>, time: &Time) {
+        *machine = Machine::Double(Engine::new(stack, setup, time));
     }
 }

@@ -4,7 +4,7 @@ use mm_control::fuzzy::fixed::{SMOOTH_Q15, SMOOTH_SURFACE, THESIS_Q15, THESIS_SU
 use mm_control::fuzzy::{Bundled, Curve, FuzzyError};
 use mm_control::laws::FuzzyTerm;
 use mm_control::{
-    ControlStack, Estimator, Gains, LawKind, OuterParams, SetupError, StackParams, SupervisedStack,
+    ControlStack, Estimator, Gains, Law, LawKind, OuterParams, SetupError, StackParams, SupervisedStack,
     SupervisorParams,
 };
 use mm_model::{Robot, RobotParams};
@@ -84,17 +84,34 @@ impl<T: Scalar> Setup<T> {
     ///
     /// # Errors
     /// The first parameter that does not work, by name.
-    #[inline(never)]
+    #[inline]
     pub fn build(&self) -> Result<SupervisedStack<T, 3>, SetupError> {
+        SupervisedStack::try_new(self.control_stack()?, self.supervisor)
+    }
+
+    // Each part in a function of its own, so that the stack of a small machine holds few of them at a time.
+
+    /// The stack alone, without the supervisor.
+    ///
+    /// # Errors
+    /// The first parameter that does not work, by name.
+    #[inline(never)]
+    pub fn control_stack(&self) -> Result<ControlStack<T, 3>, SetupError> {
         let robot = Robot::try_new(self.robot)?;
-        let stack = match self.term()? {
-            Some(term) => ControlStack::with_fuzzy(robot, self.law, term, self.stack),
-            None => ControlStack::try_new(robot, self.law, self.stack),
-        }?;
-        SupervisedStack::try_new(stack.with_delay(self.delay)?, self.supervisor)
+        let stack = ControlStack::with_law(robot, self.inner(&robot)?, self.stack)?;
+        stack.with_delay(self.delay)
+    }
+
+    #[inline(never)]
+    fn inner(&self, robot: &Robot<T, 3>) -> Result<Law<T, 3>, SetupError> {
+        match self.term()? {
+            Some(term) => Law::with_fuzzy(self.law, robot, &self.stack.gains, term),
+            None => Law::try_new(self.law, robot, &self.stack.gains),
+        }
     }
 
     /// The fuzzy term asked for; none where the law keeps its own, or has none.
+    #[inline(never)]
     fn term(&self) -> Result<Option<FuzzyTerm<T>>, FuzzyError> {
         let is_smooth = match self.law {
             LawKind::Bfsmc => true,

@@ -45,6 +45,6 @@ impl Clock {
 /// Called where the processor gives up; it uses nothing but what it is given, and does not return.
 #[exception]
 unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
-    let _ = writeln!(Console::new(), "hard fault: {frame:?}");
+    let _ = writeln!(Console::new(), "hard fault at {:08x}", frame.pc());
     exit(false)
 }

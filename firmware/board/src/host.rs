@@ -4,28 +4,38 @@ use core::ffi::CStr;
 use core::fmt;
 use core::mem::MaybeUninit;
 
-use semihosting::fd::AsFd;
-use semihosting::io::{self, Read, Stdout};
-use semihosting::sys::arm_compat::sys_get_cmdline_uninit;
+use semihosting::fd::{BorrowedFd, OwnedFd, RawFd};
+use semihosting::io::Read;
+use semihosting::sys::arm_compat::{OpenMode, sys_get_cmdline_uninit, sys_open};
 use semihosting::sys::write;
 
 /// Text to whoever watches; nothing happens before the first of it.
-#[derive(Debug, Default)]
-pub struct Console(Option<Stdout>);
+#[derive(Debug)]
+#[expect(missing_copy_implementations, reason = "a copy would open it again")]
+pub struct Console(RawFd);
+
+/// No file.
+const CLOSED: RawFd = -1;
 
 impl Console {
     pub(crate) const fn new() -> Self {
-        Self(None)
+        Self(CLOSED)
     }
 }
 
 impl fmt::Write for Console {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        if self.0.is_none() {
-            self.0 = io::stdout().ok();
+        if self.0 == CLOSED {
+            // It stays open: the number of the file is kept, which spares the checks of an owner, and the panics in them.
+            self.0 = sys_open(c":tt", OpenMode::WRONLY_TRUNC).map_or(CLOSED, OwnedFd::into_raw_fd);
         }
-        let Some(out) = &self.0 else { return Err(fmt::Error) };
-        write(out.as_fd(), text.as_bytes()).map(|_| ()).map_err(|_| fmt::Error)
+        if self.0 == CLOSED {
+            return Err(fmt::Error);
+        }
+        #[expect(unsafe_code, reason = "a file by its number")]
+        // SAFETY: the file was opened above, or in an earlier call, and nobody closes it.
+        let out = unsafe { BorrowedFd::borrow_raw(self.0) };
+        write(out, text.as_bytes()).map(|_| ()).map_err(|_| fmt::Error)
     }
 }
 

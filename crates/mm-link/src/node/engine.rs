@@ -101,11 +101,11 @@ impl<T: Scalar> Engine<T> {
         clippy::cast_sign_loss,
         reason = "a positive number of ticks; the cast saturates"
     )]
-    pub(super) fn new(stack: SupervisedStack<T, 3>, setup: &Setup<T>, time: &Time) -> Self {
+    pub(super) fn new(stack: &SupervisedStack<T, 3>, setup: &Setup<T>, time: &Time) -> Self {
         let period = setup.stack.period;
         Self {
             state: stack.initial_state(),
-            stack,
+            stack: *stack,
             period,
             pace: setup.pace,
             period_ticks: (period.to_f64() * f64::from(time.ticks_per_second)) as u64,
@@ -116,21 +116,6 @@ impl<T: Scalar> Engine<T> {
             mode: Mode::Stop,
             brake: true,
             missed: 0,
-        }
-    }
-
-    /// How a request stands to those before it. Numbers may begin anew after 2^32.
-    pub(super) const fn order(&self, seq: u32, kind: Kind) -> Order {
-        let Some(last) = self.last else { return Order::Next(1) };
-        match seq.wrapping_sub(last) {
-            0 => Order::Again,
-            gap if gap >= 1 << 31 => Order::Stale,
-            gap if gap > LONGEST_GAP
-                && matches!((kind, self.pace), (Kind::Tick32 | Kind::Tick64, Pace::Lockstep)) =>
-            {
-                Order::Gap
-            }
-            gap => Order::Next(gap),
         }
     }
 
@@ -172,9 +157,7 @@ impl<T: Scalar> Engine<T> {
                 let input = Input { q: *q, nu: *nu, reference: tick.reference };
                 stack.update(state, timing, &input)
             }
-            Seen::Measured(measurement) => {
-                stack.update_measured(state, timing, measurement, &tick.reference)
-            }
+            Seen::Measured(measurement) => stack.update_measured(state, timing, measurement, &tick.reference),
         }
     }
 
@@ -191,8 +174,41 @@ impl<T: Scalar> Engine<T> {
         Command { torque, mode, findings, brake, stages, cost: 0 }
     }
 
+    pub(super) const fn missed(&self) -> u32 {
+        self.missed
+    }
+}
+
+/// An engine of either precision.
+pub(super) trait Driven {
+    /// How a request stands to those before it. Numbers may begin anew after 2^32.
+    fn order(&self, seq: u32, kind: Kind) -> Order;
     /// Periods that have gone by without an input, where the target's clock counts.
-    pub(super) fn keep_pace(&mut self, time: &Time) -> u32 {
+    fn keep_pace(&mut self, time: &Time) -> u32;
+    /// Starts anew, at the operator's wish.
+    fn reset(&mut self, seq: u32);
+    /// Number of the last tick or reset.
+    fn last(&self) -> Option<u32>;
+    /// What the actuators are to do.
+    fn applied(&self) -> Applied;
+}
+
+impl<T: Scalar> Driven for Engine<T> {
+    fn order(&self, seq: u32, kind: Kind) -> Order {
+        let Some(last) = self.last else { return Order::Next(1) };
+        match seq.wrapping_sub(last) {
+            0 => Order::Again,
+            gap if gap >= 1 << 31 => Order::Stale,
+            gap if gap > LONGEST_GAP
+                && matches!((kind, self.pace), (Kind::Tick32 | Kind::Tick64, Pace::Lockstep)) =>
+            {
+                Order::Gap
+            }
+            gap => Order::Next(gap),
+        }
+    }
+
+    fn keep_pace(&mut self, time: &Time) -> u32 {
         if self.pace != Pace::RealTime || self.last.is_none() {
             return 0;
         }
@@ -208,22 +224,17 @@ impl<T: Scalar> Engine<T> {
         self.missed.wrapping_sub(before)
     }
 
-    /// Starts anew, at the operator's wish.
-    pub(super) fn reset(&mut self, seq: u32) {
+    fn reset(&mut self, seq: u32) {
         self.stack.reset(&mut self.state);
         (self.torque, self.mode, self.brake) = (Torque::zero(), Mode::Stop, true);
         self.last = Some(seq);
     }
 
-    pub(super) const fn last(&self) -> Option<u32> {
+    fn last(&self) -> Option<u32> {
         self.last
     }
 
-    pub(super) const fn missed(&self) -> u32 {
-        self.missed
-    }
-
-    pub(super) fn applied(&self) -> Applied {
+    fn applied(&self) -> Applied {
         let Torque { right, left, joints: [a, b, c] } = self.torque;
         let torque = [right, left, a, b, c].map(T::to_f64);
         Applied { torque, mode: self.mode, brake: self.brake }

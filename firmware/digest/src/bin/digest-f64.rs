@@ -1,0 +1,5 @@
+//! Recordings in double precision.
+#![no_std]
+#![no_main]
+
+board::program!(digest::run::<f64>);

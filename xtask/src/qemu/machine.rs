@@ -1,0 +1,98 @@
+//! The machines that programs for microcontrollers run on.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result};
+
+use crate::shell::{answers, command_with, install};
+
+/// A target and a machine of QEMU that has its processor.
+#[derive(Debug)]
+pub(crate) struct Machine {
+    pub(crate) target: &'static str,
+    pub(crate) processor: &'static str,
+    /// QEMU with the machine.
+    arguments: &'static [&'static str],
+}
+
+pub(crate) const M4F: Machine = Machine {
+    target: "thumbv7em-none-eabihf",
+    processor: "Cortex-M4F",
+    arguments: &["qemu-system-arm", "-machine", "mps2-an386", "-cpu", "cortex-m4"],
+};
+
+pub(crate) const M3: Machine = Machine {
+    target: "thumbv7m-none-eabi",
+    processor: "Cortex-M3",
+    arguments: &["qemu-system-arm", "-machine", "mps2-an385", "-cpu", "cortex-m3"],
+};
+
+pub(crate) const M0: Machine = Machine {
+    target: "thumbv6m-none-eabi",
+    processor: "Cortex-M0",
+    // 32 KiB of RAM, for `digest`; the others are linked for the lower 16.
+    arguments: &["qemu-system-arm", "-machine", "microbit", "-global", "nrf51-soc.sram-size=32768"],
+};
+
+pub(crate) const RISCV: Machine = Machine {
+    target: "riscv32imac-unknown-none-elf",
+    processor: "riscv32imac",
+    arguments: &[
+        "qemu-system-riscv32",
+        "-machine",
+        "virt",
+        "-cpu",
+        "rv32,f=false,d=false",
+        "-bios",
+        "none",
+        "-m",
+        "32M",
+    ],
+};
+
+/// All of them.
+pub(crate) const MACHINES: [Machine; 4] = [M4F, M3, M0, RISCV];
+
+/// How a program ended, and what it printed.
+#[derive(Debug)]
+pub(crate) struct Run {
+    pub(crate) is_well: bool,
+    pub(crate) text: String,
+    pub(crate) took: Duration,
+}
+
+/// Installs the emulators where they are missing.
+pub(crate) fn install_emulators() -> Result<()> {
+    let needed = [("qemu-system-arm", "qemu-system-arm"), ("qemu-system-riscv32", "qemu-system-misc")];
+    let missing: Vec<&str> = needed
+        .into_iter()
+        .filter(|(program, _)| !answers(program, &["--version"]))
+        .map(|(_, package)| package)
+        .collect();
+    if missing.is_empty() { Ok(()) } else { install(&missing) }
+}
+
+impl Machine {
+    /// Runs a program to its end, at most for `patience`, with a file as its argument.
+    pub(crate) fn run(&self, program: &Path, file: Option<&Path>, patience: Duration) -> Result<Run> {
+        let mut qemu = command_with("timeout", &[&patience.as_secs().to_string()]);
+        qemu.args(self.arguments);
+        qemu.args(["-display", "none", "-monitor", "none", "-serial", "none", "-semihosting-config"]);
+        let mut semihosting = "enable=on,target=native".to_owned();
+        if let Some(file) = file {
+            // A comma would end the argument.
+            semihosting += &format!(",arg={}", file.display().to_string().replace(',', ",,"));
+        }
+        let begin = Instant::now();
+        let output = qemu.arg(semihosting).arg("-kernel").arg(program).output();
+        let output =
+            output.with_context(|| format!("cannot start the emulator of the {}", self.processor))?;
+        let mut text = String::from_utf8_lossy(&output.stdout).into_owned();
+        text += &String::from_utf8_lossy(&output.stderr);
+        if output.status.code() == Some(124) {
+            text += &format!("no end after {} s\n", patience.as_secs());
+        }
+        Ok(Run { is_well: output.status.success(), text, took: begin.elapsed() })
+    }
+}
