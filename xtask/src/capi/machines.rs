@@ -74,7 +74,8 @@ pub(super) fn check(request: &Request, here: &[Lines]) -> Result<()> {
         install(&["qemu-system-arm"])?;
     }
     let machines = if request.full { &MACHINES[..] } else { MACHINES.get(..USUAL).unwrap_or(&MACHINES) };
-    let targets: Vec<&str> = machines.iter().map(|machine| machine.target).collect();
+    let also = request.full.then_some(ALSO);
+    let targets: Vec<&str> = machines.iter().map(|machine| machine.target).chain(also).collect();
     let archives = archive::build(&targets, request.fallback)?;
     for (machine, archive) in machines.iter().zip(&archives) {
         for (precision, lines) in
@@ -85,7 +86,6 @@ pub(super) fn check(request: &Request, here: &[Lines]) -> Result<()> {
         }
     }
     if request.full {
-        archive::build(&[ALSO], request.fallback)?;
         println!("{ALSO}: archive built");
     }
     Ok(())
