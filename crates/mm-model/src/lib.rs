@@ -16,7 +16,7 @@
 //!                                 '--> tip, Jacobian and its rate, manipulability
 //! ```
 //!
-//! Everything is generic over the scalar ([`Real`]: `f32` and `f64`) and the number of joints; the arm with yaw, pitch and
+//! Everything is generic over the scalar ([`Real`]: `f32`, `f64` and the fixed-point [`Q32`]) and the number of joints; the arm with yaw, pitch and
 //! pitch (N = 3) and the base alone (N = 0) are there in closed form. [`reference`](mod@reference) holds the literal, slow
 //! form of the thesis, against which the closed form is tested.
 //!
@@ -66,7 +66,7 @@ pub use mass::{MassFactor, MassMatrix};
 pub use mechanism::{ManipulabilitySlope, Mechanism, Sines, SinesOf};
 pub use params::{Friction, Limits, Link, RobotParams};
 pub use platform::WheelRates;
-pub use real::Real;
+pub use real::{Q32, Real};
 pub use robot::Robot;
 pub use tip::TipJacobian;
 

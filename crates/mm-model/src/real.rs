@@ -3,12 +3,15 @@
 use core::fmt::{Debug, Display};
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
 
+mod q32;
 mod sin_cos_f32;
+
+pub use q32::Q32;
 
 /// A real number with the elementary functions that the model and the controllers need.
 ///
 /// Implemented for `f64`, by libm, and for `f32`, by libm where it stays in single precision and by a sine and
-/// cosine of this crate otherwise. All of it is plain IEEE arithmetic in a fixed order, without fused
+/// cosine of this crate otherwise; and for [`Q32`], in integers, for cores that have nothing else. The floating-point part is plain IEEE arithmetic in a fixed order, without fused
 /// multiply-add, so that a host and a microcontroller give the same bits.
 pub trait Real:
     Scalar
@@ -43,7 +46,7 @@ pub trait Real:
     /// The number of this type nearest to `value`.
     #[must_use]
     fn from_f64(value: f64) -> Self;
-    /// The same number in double precision; exact.
+    /// The same number in double precision; exact for floating point.
     fn to_f64(self) -> f64;
     /// A count as a number, rounded to the nearest; exact up to 2^24.
     #[must_use]
