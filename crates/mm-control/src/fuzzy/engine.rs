@@ -111,11 +111,14 @@ impl<'a, T: Real> Mamdani<'a, T> {
                 if !outputs.iter().all(straight) {
                     return Err(FuzzyError::Curved("outputs.terms"));
                 }
-                // Moments are of the order of the square of the range, and what is subtracted from them a rounding error of it.
+                // Moments are of the order of the square of the range, and what is subtracted from them a rounding error of it, which is
+                // that of one where numbers have a fixed point.
+                let floating = T::EPSILON * T::EPSILON > T::ZERO;
+                let rounding = if floating { T::EPSILON } else { T::ONE };
                 let moderate = |output: &Variable<'_, T>| {
                     let (lo, hi) = output.range;
                     let square = (hi - lo) * (hi - lo);
-                    (square * T::from_u32(16)).is_finite() && square * T::EPSILON * T::EPSILON > T::ZERO
+                    (square * T::from_u32(16)).is_finite() && square * T::EPSILON * rounding > T::ZERO
                 };
                 if !outputs.iter().all(moderate) {
                     return Err(FuzzyError::OutOfRange("outputs.range"));

@@ -46,11 +46,11 @@ pub use curve::{Curve, FuzzySystem};
 pub use engine::Mamdani;
 pub use error::FuzzyError;
 pub use membership::MembershipFunction;
-pub use smooth::{SMOOTH, SMOOTH_F32};
+pub use smooth::{SMOOTH, SMOOTH_F32, SMOOTH_Q32};
 pub use sugeno::Sugeno;
 pub use surface::Surface;
 pub use tables::{
     Aggregation, And, Connective, Consequent, Defuzzifier, Implication, Inference, MamdaniTables, Operators,
     Or, Rule, Sampling, SugenoOutput, SugenoTables, SugenoVariable, Variable,
 };
-pub use thesis::{THESIS, THESIS_F32};
+pub use thesis::{THESIS, THESIS_F32, THESIS_Q32};

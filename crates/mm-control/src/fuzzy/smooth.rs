@@ -1,46 +1,48 @@
 //! A monotone rule base: what the fuzzy switching term of the thesis is meant to do, without its jump.
 
+use super::bundled::same;
 use super::{
     Aggregation, And, Connective, Defuzzifier, Implication, MamdaniTables, MembershipFunction, Operators, Or,
     Rule, Variable,
 };
+use mm_model::Q32;
 
-/// The tables in one precision; a literal is rounded to it once.
+/// The tables in one precision, by the function that makes a number of it of a literal.
 macro_rules! tables {
-    () => {{
+    ($n:path) => {{
         MamdaniTables {
             inputs: &[Variable {
-                range: (-1.0, 1.0),
+                range: ($n(-1.0), $n(1.0)),
                 terms: &[
-                    MembershipFunction::Triangle([-1.0, -1.0, -0.6]),
-                    MembershipFunction::Triangle([-1.0, -0.6, -0.25]),
-                    MembershipFunction::Triangle([-0.6, -0.25, 0.0]),
-                    MembershipFunction::Triangle([-0.25, 0.0, 0.25]),
-                    MembershipFunction::Triangle([0.0, 0.25, 0.6]),
-                    MembershipFunction::Triangle([0.25, 0.6, 1.0]),
-                    MembershipFunction::Triangle([0.6, 1.0, 1.0]),
+                    MembershipFunction::Triangle([$n(-1.0), $n(-1.0), $n(-0.6)]),
+                    MembershipFunction::Triangle([$n(-1.0), $n(-0.6), $n(-0.25)]),
+                    MembershipFunction::Triangle([$n(-0.6), $n(-0.25), $n(0.0)]),
+                    MembershipFunction::Triangle([$n(-0.25), $n(0.0), $n(0.25)]),
+                    MembershipFunction::Triangle([$n(0.0), $n(0.25), $n(0.6)]),
+                    MembershipFunction::Triangle([$n(0.25), $n(0.6), $n(1.0)]),
+                    MembershipFunction::Triangle([$n(0.6), $n(1.0), $n(1.0)]),
                 ],
             }],
             outputs: &[Variable {
-                range: (-4.0 / 3.0, 4.0 / 3.0),
+                range: ($n(-4.0 / 3.0), $n(4.0 / 3.0)),
                 terms: &[
-                    MembershipFunction::Triangle([-4.0 / 3.0, -1.0, -2.0 / 3.0]),
-                    MembershipFunction::Triangle([-1.0, -2.0 / 3.0, -1.0 / 3.0]),
-                    MembershipFunction::Triangle([-2.0 / 3.0, -1.0 / 3.0, 0.0]),
-                    MembershipFunction::Triangle([-1.0 / 3.0, 0.0, 1.0 / 3.0]),
-                    MembershipFunction::Triangle([0.0, 1.0 / 3.0, 2.0 / 3.0]),
-                    MembershipFunction::Triangle([1.0 / 3.0, 2.0 / 3.0, 1.0]),
-                    MembershipFunction::Triangle([2.0 / 3.0, 1.0, 4.0 / 3.0]),
+                    MembershipFunction::Triangle([$n(-4.0 / 3.0), $n(-1.0), $n(-2.0 / 3.0)]),
+                    MembershipFunction::Triangle([$n(-1.0), $n(-2.0 / 3.0), $n(-1.0 / 3.0)]),
+                    MembershipFunction::Triangle([$n(-2.0 / 3.0), $n(-1.0 / 3.0), $n(0.0)]),
+                    MembershipFunction::Triangle([$n(-1.0 / 3.0), $n(0.0), $n(1.0 / 3.0)]),
+                    MembershipFunction::Triangle([$n(0.0), $n(1.0 / 3.0), $n(2.0 / 3.0)]),
+                    MembershipFunction::Triangle([$n(1.0 / 3.0), $n(2.0 / 3.0), $n(1.0)]),
+                    MembershipFunction::Triangle([$n(2.0 / 3.0), $n(1.0), $n(4.0 / 3.0)]),
                 ],
             }],
             rules: &[
-                Rule { inputs: &[1], outputs: &[7], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[2], outputs: &[6], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[3], outputs: &[5], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[4], outputs: &[4], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[5], outputs: &[3], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[6], outputs: &[2], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[7], outputs: &[1], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[1], outputs: &[7], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[2], outputs: &[6], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[3], outputs: &[5], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[4], outputs: &[4], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[5], outputs: &[3], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[6], outputs: &[2], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[7], outputs: &[1], weight: $n(1.0), connective: Connective::And },
             ],
             operators: Operators {
                 and: And::Min,
@@ -85,7 +87,10 @@ macro_rules! tables {
 /// assert!(curve.evaluate(0.2) < curve.evaluate(0.1));
 /// # Ok::<(), mm_control::fuzzy::FuzzyError>(())
 /// ```
-pub const SMOOTH: MamdaniTables<'static, f64> = tables!();
+pub const SMOOTH: MamdaniTables<'static, f64> = tables!(same);
 
 /// The same in single precision.
-pub const SMOOTH_F32: MamdaniTables<'static, f32> = tables!();
+pub const SMOOTH_F32: MamdaniTables<'static, f32> = tables!(same);
+
+/// The same in fixed point.
+pub const SMOOTH_Q32: MamdaniTables<'static, Q32> = tables!(Q32::from_f64);

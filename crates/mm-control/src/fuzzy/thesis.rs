@@ -1,48 +1,50 @@
 //! The rule base of the thesis, number by number.
 
+use super::bundled::same;
 use super::{
     Aggregation, And, Connective, Defuzzifier, Implication, MamdaniTables, MembershipFunction, Operators, Or,
     Rule, Variable,
 };
+use mm_model::Q32;
 
-/// The tables in one precision; a literal is rounded to it once.
+/// The tables in one precision, by the function that makes a number of it of a literal.
 macro_rules! tables {
-    () => {{
+    ($n:path) => {{
         MamdaniTables {
             inputs: &[Variable {
-                range: (-1.4, 1.4),
+                range: ($n(-1.4), $n(1.4)),
                 terms: &[
-                    MembershipFunction::Trapezoid([-4.6, -1.4, -0.9667, -0.7003]),
-                    MembershipFunction::Triangle([-1.0, -0.667, -0.25]),
-                    MembershipFunction::Triangle([-0.667, -0.25, 0.0]),
-                    MembershipFunction::Triangle([-0.25, 0.0, 0.0]),
-                    MembershipFunction::Triangle([0.0, 0.0, 0.25]),
-                    MembershipFunction::Triangle([0.0, 0.25, 0.667]),
-                    MembershipFunction::Triangle([0.25, 0.667, 1.0]),
-                    MembershipFunction::Trapezoid([0.7003, 0.9667, 1.4, 4.6]),
+                    MembershipFunction::Trapezoid([$n(-4.6), $n(-1.4), $n(-0.9667), $n(-0.7003)]),
+                    MembershipFunction::Triangle([$n(-1.0), $n(-0.667), $n(-0.25)]),
+                    MembershipFunction::Triangle([$n(-0.667), $n(-0.25), $n(0.0)]),
+                    MembershipFunction::Triangle([$n(-0.25), $n(0.0), $n(0.0)]),
+                    MembershipFunction::Triangle([$n(0.0), $n(0.0), $n(0.25)]),
+                    MembershipFunction::Triangle([$n(0.0), $n(0.25), $n(0.667)]),
+                    MembershipFunction::Triangle([$n(0.25), $n(0.667), $n(1.0)]),
+                    MembershipFunction::Trapezoid([$n(0.7003), $n(0.9667), $n(1.4), $n(4.6)]),
                 ],
             }],
             outputs: &[Variable {
-                range: (-1.0, 1.0),
+                range: ($n(-1.0), $n(1.0)),
                 terms: &[
-                    MembershipFunction::Triangle([-1.333, -1.0, -0.6666]),
-                    MembershipFunction::Triangle([-1.0, -0.6666, -0.3334]),
-                    MembershipFunction::Triangle([-0.6666, -0.3334, 0.0]),
-                    MembershipFunction::Triangle([-0.3334, 0.0, 0.3334]),
-                    MembershipFunction::Triangle([0.0, 0.3334, 0.6666]),
-                    MembershipFunction::Triangle([0.3334, 0.6666, 1.0]),
-                    MembershipFunction::Triangle([0.6666, 1.0, 1.334]),
+                    MembershipFunction::Triangle([$n(-1.333), $n(-1.0), $n(-0.6666)]),
+                    MembershipFunction::Triangle([$n(-1.0), $n(-0.6666), $n(-0.3334)]),
+                    MembershipFunction::Triangle([$n(-0.6666), $n(-0.3334), $n(0.0)]),
+                    MembershipFunction::Triangle([$n(-0.3334), $n(0.0), $n(0.3334)]),
+                    MembershipFunction::Triangle([$n(0.0), $n(0.3334), $n(0.6666)]),
+                    MembershipFunction::Triangle([$n(0.3334), $n(0.6666), $n(1.0)]),
+                    MembershipFunction::Triangle([$n(0.6666), $n(1.0), $n(1.334)]),
                 ],
             }],
             rules: &[
-                Rule { inputs: &[1], outputs: &[5], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[2], outputs: &[6], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[3], outputs: &[7], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[4], outputs: &[7], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[5], outputs: &[1], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[6], outputs: &[1], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[7], outputs: &[2], weight: 1.0, connective: Connective::And },
-                Rule { inputs: &[8], outputs: &[3], weight: 1.0, connective: Connective::And },
+                Rule { inputs: &[1], outputs: &[5], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[2], outputs: &[6], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[3], outputs: &[7], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[4], outputs: &[7], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[5], outputs: &[1], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[6], outputs: &[1], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[7], outputs: &[2], weight: $n(1.0), connective: Connective::And },
+                Rule { inputs: &[8], outputs: &[3], weight: $n(1.0), connective: Connective::And },
             ],
             operators: Operators {
                 and: And::Min,
@@ -87,7 +89,10 @@ macro_rules! tables {
 /// assert_eq!(curve.evaluate(9.0), curve.evaluate(1.4));
 /// # Ok::<(), mm_control::fuzzy::FuzzyError>(())
 /// ```
-pub const THESIS: MamdaniTables<'static, f64> = tables!();
+pub const THESIS: MamdaniTables<'static, f64> = tables!(same);
 
 /// The same in single precision, each number of Appendix C rounded once.
-pub const THESIS_F32: MamdaniTables<'static, f32> = tables!();
+pub const THESIS_F32: MamdaniTables<'static, f32> = tables!(same);
+
+/// The same in fixed point.
+pub const THESIS_Q32: MamdaniTables<'static, Q32> = tables!(Q32::from_f64);

@@ -50,7 +50,7 @@ impl<T: Real> BaseHold<T> {
         if since >= whole {
             return BaseShare::full();
         }
-        let number = |count: u32| T::from_f64(f64::from(count));
+        let number = T::from_u32;
         let u = number(since) / number(whole);
         let three = T::TWO + T::ONE;
         let rate = T::TWO * three * u * (T::ONE - u) / (number(whole) * self.period);
