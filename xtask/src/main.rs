@@ -12,6 +12,7 @@ mod fuzzy_peers;
 mod grid;
 mod mmsim;
 mod parallel;
+mod pil;
 mod qemu;
 mod real_time;
 mod scenarios;
@@ -39,6 +40,7 @@ cargo xtask <job>
                       [--target T: only the archive] [--full: all targets] [--fallback]
   qemu                runs the programs of firmware/ on emulated microcontrollers and compares every bit of the controller with this machine
                       [--full: all ticks] [--scenario NAME] [--fallback] [--json]
+  pil                 runs the controller on emulated microcontrollers in the loop [--build: only builds it] [--full] [--fallback] [--mmsim FILE]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -126,6 +128,16 @@ fn run() -> Result<ExitCode> {
             let (json, scenario) = (arguments.flag("--json"), arguments.value("--scenario")?);
             arguments.finish()?;
             qemu::run(&qemu::Options { full, fallback, json, scenario })?
+        }
+        "pil" => {
+            let options = pil::Options {
+                build: arguments.flag("--build"),
+                full: arguments.flag("--full"),
+                fallback: arguments.flag("--fallback"),
+            };
+            let command = arguments.value("--mmsim")?;
+            arguments.finish()?;
+            pil::run(&options, || mmsim::Mmsim::find(command, mmsim::Profile::Release))?
         }
         "real-time" => {
             let runs = arguments.value("--runs")?;

@@ -60,6 +60,12 @@ impl Mmsim {
         })
     }
 
+    /// What a run with any arguments gives.
+    pub(crate) fn output(&self, arguments: &[&str]) -> Result<Output> {
+        let output = self.command().args(arguments).output();
+        output.with_context(|| format!("cannot start {}", self.0.display()))
+    }
+
     fn command(&self) -> Command {
         command(&self.0)
     }

@@ -186,6 +186,8 @@ fn no_damage_moves_the_state_from_that_of_the_accepted_ticks() {
             counters.corrupt > 200 && counters.duplicates > 20 && counters.stale > 20,
             "seed {seed}: {counters:?}"
         );
+        host.wire.input.extend([0]);
+        poll(&mut host.node, &mut host.wire, &host.clock);
         // The wire is well again: within the time of a recovery the law runs as before.
         for (seq, tick) in ticks::<f32>(measured).skip(3000).take(SETTLED as usize + 2) {
             let there = host.tick(seq, &tick).expect("an answer");

@@ -3,6 +3,7 @@
 mod compare;
 mod fis;
 mod interrupt;
+mod pil;
 mod progress;
 mod recorder;
 mod reproduce;
@@ -43,6 +44,7 @@ pub enum Exit {
     mmsim compare --scenario square-compare --controllers bsmc,bsmc-sat,bfsmc-thesis,bfsmc\n  \
     mmsim sweep --scenario square-compare --samples 1000\n  \
     mmsim tune --scenario square-compare --controller bfsmc -o gains.toml\n  \
+    mmsim pil --scenario square-compare --target qemu:cortex-m4\n  \
     mmsim fis eval thesis -0.5 0.25\n\n\
     Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed")]
 struct Cli {
@@ -64,6 +66,8 @@ enum Command {
     Sweep(sweep::SweepArgs),
     /// Search for the gains that cost least on a scenario and write them as TOML.
     Tune(tune::TuneArgs),
+    /// Run a scenario with the controller on a microcontroller, and compare it with the one here, bit for bit.
+    Pil(pil::PilArgs),
     /// List, show and check scenario files, or print their JSON schema.
     #[command(subcommand)]
     Scenario(ScenarioCommand),
@@ -199,6 +203,7 @@ where
         Some(Command::Reproduce(args)) => Ok(reproduce::reproduce(&args)),
         Some(Command::Sweep(args)) => sweep::sweep(&args),
         Some(Command::Tune(args)) => tune::tune(&args),
+        Some(Command::Pil(args)) => pil::pil(&args),
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
         Some(Command::Fis(command)) => Ok(fis::fis(&command)),
     });

@@ -6,9 +6,11 @@ mod faults;
 mod fuzzy;
 mod hardware;
 mod initial;
+mod link;
 mod robot;
 mod trajectory;
 
+pub use link::setup;
 use mm_control::LawKind;
 use nalgebra::Vector3;
 

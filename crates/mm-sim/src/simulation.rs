@@ -1,9 +1,11 @@
 //! The closed loop: reference, controller, plant, metrics and digest, tick by tick.
 
+mod controller;
 mod guard;
 mod outcome;
 mod runaway;
 
+pub use controller::{Controller, Own};
 pub use guard::{Found, Guard, SupervisorReport};
 pub use outcome::{ASK_EVERY, Ending, NoRecorder, Recorder, RunResult, Sample};
 pub(crate) use runaway::runaway;
@@ -75,6 +77,18 @@ impl Simulation {
     /// # Errors
     /// Those of the recorder; the run ends there.
     pub fn run<R: Recorder>(&self, recorder: &mut R) -> Result<RunResult, R::Error> {
+        self.run_with(recorder, &mut Own)
+    }
+
+    /// Runs the closed loop with torques that somebody else computes.
+    ///
+    /// # Errors
+    /// Those of the recorder; the run ends there.
+    pub fn run_with<R: Recorder, C: Controller>(
+        &self,
+        recorder: &mut R,
+        controller: &mut C,
+    ) -> Result<RunResult, R::Error> {
         let mut run = Run::new(self);
         let mut ending = Ending::Finished;
         for tick in 0..self.clock.ticks {
@@ -82,7 +96,7 @@ impl Simulation {
                 ending = Ending::Stopped { t: self.clock.time(tick) };
                 break;
             }
-            if let Some(early) = run.tick(tick, recorder)? {
+            if let Some(early) = run.tick(tick, recorder, controller)? {
                 ending = early;
                 break;
             }
@@ -139,7 +153,12 @@ impl<'a> Run<'a> {
 
     /// One control period; `Some` ends the run.
     #[inline]
-    fn tick<R: Recorder>(&mut self, tick: u64, recorder: &mut R) -> Result<Option<Ending>, R::Error> {
+    fn tick<R: Recorder, C: Controller>(
+        &mut self,
+        tick: u64,
+        recorder: &mut R,
+        controller: &mut C,
+    ) -> Result<Option<Ending>, R::Error> {
         let Simulation { stack, plant, trajectory, clock, .. } = self.simulation;
         let t = clock.time(tick);
         let reference = trajectory.at(t);
@@ -153,6 +172,14 @@ impl<'a> Run<'a> {
             return Ok(Some(Ending::Diverged { t, state, value }));
         }
         let updated = match (&mut self.guard, &mut self.hardware) {
+            (_, hardware) if C::ELSEWHERE => {
+                let sensors = hardware.as_deref_mut().filter(|_| stack.estimates());
+                let measured = sensors.map(|sensors| sensors.measure(&self.state));
+                match controller.update(t, &Input { q, nu, reference }, measured) {
+                    Ok(output) => Ok(output),
+                    Err(ending) => return Ok(Some(ending)),
+                }
+            }
             (None, Some(hardware)) if stack.estimates() => {
                 stack.update_measured(&mut self.control, &hardware.measure(&self.state), &reference)
             }

@@ -7,9 +7,9 @@ use std::time::Instant;
 use super::recorder::RunRecorder;
 use super::{Common, Exit, RunArgs, complain, print, table};
 use crate::experiment::{Experiment, controller_name};
-use crate::log::Outcome;
+use crate::log::{LogError, Outcome};
 use crate::scenario::{self, Loaded};
-use crate::simulation::Ending;
+use crate::simulation::{Ending, RunResult};
 use crate::summary::{self, SCHEMA, Summary};
 
 /// Runs the scenario that the arguments name.
@@ -84,9 +84,19 @@ pub(super) fn log_path(out: &Path, name: &str) -> PathBuf {
 
 /// Runs a built scenario; the log, if there is one, is finished however the run ends.
 pub(super) fn execute(
+    prepared: &(Loaded, Experiment),
+    log: Option<PathBuf>,
+    show_progress: bool,
+) -> Result<(Summary, Exit), Exit> {
+    execute_with(prepared, log, show_progress, |recorder| prepared.1.run(recorder))
+}
+
+/// The same for a caller that runs it in its own way.
+pub(super) fn execute_with(
     (loaded, experiment): &(Loaded, Experiment),
     log: Option<PathBuf>,
     show_progress: bool,
+    run: impl FnOnce(&mut RunRecorder) -> Result<RunResult, LogError>,
 ) -> Result<(Summary, Exit), Exit> {
     let fail = |error: &dyn Error| {
         complain(&format_args!("error: {}", with_causes(error)));
@@ -101,7 +111,7 @@ pub(super) fn execute(
     let mut recorder =
         RunRecorder::open(loaded, experiment, log.clone(), show_progress).map_err(|error| fail(&error))?;
     let begin = Instant::now();
-    let ran = experiment.run(&mut recorder);
+    let ran = run(&mut recorder);
     let wall_s = begin.elapsed().as_secs_f64();
     recorder.clear();
     let result = ran.map_err(|error| fail(&error))?;

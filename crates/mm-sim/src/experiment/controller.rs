@@ -10,13 +10,27 @@ use crate::scenario::{self, Loaded, ScenarioError};
 
 /// The control stack: defaults that follow the robot, overridden by what the file gives.
 pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStack<f64, 3>, ScenarioError> {
+    let (kind, params) = params(loaded, &robot)?;
+    let delay = loaded.file.controller.estimator.delay_s;
+    let stack = match super::fuzzy::term(loaded, kind)? {
+        Some(term) => ControlStack::with_fuzzy(robot, kind, term, params),
+        None => ControlStack::try_new(robot, kind, params),
+    };
+    stack.and_then(|stack| stack.with_delay(delay)).map_err(|error| refused(loaded, &error))
+}
+
+/// The law of a scenario and its parameters.
+pub(super) fn params(
+    loaded: &Loaded,
+    robot: &Robot<f64, 3>,
+) -> Result<(LawKind, StackParams<f64, 3>), ScenarioError> {
     let file = &loaded.file;
     let period = file.simulation.control_period_s;
     let kind = law_kind(file.controller.kind).unwrap_or(LawKind::Bfsmc);
     let given = &file.controller.gains;
     let mut gains = match given.switching_gain {
-        None => Gains::for_robot(&robot, kind, period),
-        Some(k) => Gains::with_switching(&robot, kind, period, Force::from_channels(k.into_iter())),
+        None => Gains::for_robot(robot, kind, period),
+        Some(k) => Gains::with_switching(robot, kind, period, Force::from_channels(k.into_iter())),
     };
     let force = |raw: Option<[f64; 5]>, default| {
         raw.map_or(default, |values| Force::from_channels(values.into_iter()))
@@ -44,30 +58,27 @@ pub(super) fn stack(loaded: &Loaded, robot: Robot<f64, 3>) -> Result<ControlStac
     let scenario::Misprints { sign, channels } = given.misprints;
     gains.misprints = Misprints { sign, channels };
     gains.twisting_rate = force(given.twisting_rate_gain, gains.twisting_rate);
-    let outer = outer(&robot, &file.controller.outer);
+    let outer = outer(robot, &file.controller.outer);
     let estimator = super::hardware::estimator(loaded)?;
-    let delay = file.controller.estimator.delay_s;
-    let params = StackParams { period, outer, gains, estimator };
-    let stack = match super::fuzzy::term(loaded, kind)? {
-        Some(term) => ControlStack::with_fuzzy(robot, kind, term, params),
-        None => ControlStack::try_new(robot, kind, params),
+    Ok((kind, StackParams { period, outer, gains, estimator }))
+}
+
+/// Parameters that do not work together, at their place in the file.
+fn refused(loaded: &Loaded, error: &SetupError) -> ScenarioError {
+    let key = match error {
+        SetupError::Param(error) => {
+            let name = error.parameter();
+            let outer = OUTER.contains(&name) || name.starts_with("base_") || name.contains("_rad");
+            let part = match name {
+                "cutoff_hz" | "delay_s" => "estimator",
+                _ if outer => "outer",
+                _ => "gains",
+            };
+            format!("controller.{part}.{name}")
+        }
+        _ => "controller.gains".to_owned(),
     };
-    stack.and_then(|stack| stack.with_delay(delay)).map_err(|error| {
-        let key = match error {
-            SetupError::Param(error) => {
-                let name = error.parameter();
-                let outer = OUTER.contains(&name) || name.starts_with("base_") || name.contains("_rad");
-                let part = match name {
-                    "cutoff_hz" | "delay_s" => "estimator",
-                    _ if outer => "outer",
-                    _ => "gains",
-                };
-                format!("controller.{part}.{name}")
-            }
-            _ => "controller.gains".to_owned(),
-        };
-        loaded.problem(&key, error.to_string(), "gains that the law can work with")
-    })
+    loaded.problem(&key, error.to_string(), "gains that the law can work with")
 }
 
 /// Parameters of the outer loop; besides these, those with an angle in their unit.

@@ -1,0 +1,7 @@
+//! Links the program with the runtime's script.
+
+fn main() {
+    if std::env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "none") {
+        println!("cargo::rustc-link-arg-bins=-Tlink.x");
+    }
+}
