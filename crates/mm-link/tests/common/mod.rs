@@ -1,6 +1,10 @@
 //! A host for a node in the same process, and a stack to compare with.
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
-#![allow(dead_code, reason = "not every test file needs every helper")]
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clocks and random numbers are cut to their width"
+)]
 
 use std::cell::Cell;
 use std::collections::VecDeque;

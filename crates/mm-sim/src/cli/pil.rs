@@ -185,8 +185,11 @@ fn conclude(common: &Common, report: &Report, exit: Exit) -> Exit {
     exit.max(printed).max(equal)
 }
 
+/// A wire, and the bytes of flash and of static RAM of the program at its end.
+type Connection = (Box<dyn Wire>, Option<(u64, u64)>);
+
 /// Opens the wire, with the sizes of the program at its end where they are known.
-fn connect(args: &PilArgs, target: &Target) -> Result<(Box<dyn Wire>, Option<(u64, u64)>), Exit> {
+fn connect(args: &PilArgs, target: &Target) -> Result<Connection, Exit> {
     match target {
         Target::Serial(port) => {
             let serial = Serial::open(port, args.baud).map_err(|error| {

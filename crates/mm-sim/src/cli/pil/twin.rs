@@ -40,6 +40,7 @@ pub(super) struct Twin<'a, T: Scalar> {
     stack: SupervisedStack<T, 3>,
     state: SupervisedState<T, 3>,
     timing: Timing<T>,
+    seq: u32,
     last: Output<f64, 3>,
     pub(super) tally: Tally,
     /// Why the link failed, where it did.
@@ -53,6 +54,7 @@ impl<'a, T: Scalar> Twin<'a, T> {
             stack,
             timing: Timing::exact(setup.stack.period),
             client,
+            seq: 0,
             last: nothing(),
             tally: Tally::default(),
             failed: None,
@@ -88,9 +90,8 @@ impl<T: Scalar> Controller for Twin<'_, T> {
         let tick = Tick { timing: self.timing, seen, reference: reference(&input.reference) };
         let number = self.tally.ticks;
         // Numbers begin at 1 and may begin anew.
-        let seq = (number & u64::from(u32::MAX)) as u32;
-        let seq = seq.wrapping_add(1);
-        let asked = self.client.ask((T::TICK, T::COMMAND), ("a tick", seq), &tick);
+        self.seq = self.seq.wrapping_add(1);
+        let asked = self.client.ask((T::TICK, T::COMMAND), ("a tick", self.seq), &tick);
         let there: mm_link::Command<T> = match asked {
             Ok(command) => command,
             Err(error) => {
