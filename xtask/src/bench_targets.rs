@@ -58,12 +58,12 @@ const PATIENCE: &str = "120";
 
 /// One line of the program: numbers by name, and the checksum of the outputs.
 #[derive(Debug, PartialEq, Eq)]
-struct Count {
+pub(crate) struct Count {
     numbers: BTreeMap<String, u64>,
-    checksum: String,
+    pub(crate) checksum: String,
 }
 
-type Counts = Vec<(String, Count)>;
+pub(crate) type Counts = Vec<(String, Count)>;
 
 /// Counts on all machines; fails when a budget is exceeded or an output differs from the one computed here.
 pub(crate) fn run(json: bool, fallback: bool) -> Result<ExitCode> {
@@ -84,7 +84,8 @@ fn measure(json: bool, fallback: bool) -> Result<bool> {
         install(&["qemu-system-arm"])?;
     }
     let budgets = budgets()?;
-    let here = counts(&on_host()?)?;
+    let here: Counts =
+        counts(&on_host()?)?.into_iter().filter(|(name, _)| name.starts_with("fuzzy-")).collect();
     let programs = build(fallback)?;
     let mut well = true;
     let mut all = Map::new();
@@ -126,12 +127,7 @@ fn budgets() -> Result<BTreeMap<String, BTreeMap<String, u64>>> {
     let table: toml::Table = toml::from_str(&text)?;
     let mut budgets = BTreeMap::new();
     for (target, section) in &table {
-        ensure!(
-            MACHINES.iter().any(|machine| machine.target == target),
-            "budget.toml: no machine for `{target}`"
-        );
-        let list = section.get("instructions").and_then(toml::Value::as_table);
-        let list = list.with_context(|| format!("budget.toml: [{target}.instructions] is missing"))?;
+        let Some(list) = section.get("instructions").and_then(toml::Value::as_table) else { continue };
         let number = |(name, value): (&String, &toml::Value)| {
             let most = value.as_integer().and_then(|most| u64::try_from(most).ok());
             Ok((name.clone(), most.with_context(|| format!("budget.toml: {target}: {name} is no count"))?))
@@ -163,8 +159,8 @@ fn on_machine(machine: &Machine, program: &Path) -> Result<String> {
     output(&mut qemu).with_context(|| format!("on the {}", machine.processor))
 }
 
-/// What it prints here; the counts are zeros.
-fn on_host() -> Result<String> {
+/// What the counting programs print here; the counts are zeros.
+pub(crate) fn on_host() -> Result<String> {
     output(&mut firmware_cargo(&["run", "--quiet", "--locked", "--example", "host"])?)
 }
 
@@ -177,7 +173,7 @@ fn firmware_cargo(arguments: &[&str]) -> Result<Command> {
 }
 
 /// The lines of the program: `name evaluations=1401 total=... checksum=...`.
-fn counts(text: &str) -> Result<Counts> {
+pub(crate) fn counts(text: &str) -> Result<Counts> {
     let counts: Counts = text.lines().map(count).collect::<Result<_>>()?;
     ensure!(!counts.is_empty(), "the program printed nothing");
     Ok(counts)
@@ -229,7 +225,7 @@ fn problems(counts: &Counts, here: &Counts, budgets: Option<&BTreeMap<String, u6
 }
 
 impl Count {
-    fn number(&self, name: &str) -> u64 {
+    pub(crate) fn number(&self, name: &str) -> u64 {
         self.numbers.get(name).copied().unwrap_or(u64::MAX)
     }
 

@@ -17,6 +17,7 @@ mod qemu;
 mod real_time;
 mod scenarios;
 mod shell;
+mod size;
 mod table;
 mod targets;
 
@@ -41,6 +42,7 @@ cargo xtask <job>
   qemu                runs the programs of firmware/ on emulated microcontrollers and compares every bit of the controller with this machine
                       [--full: all ticks] [--scenario NAME] [--fallback] [--json]
   pil                 runs the controller on emulated microcontrollers in the loop [--build: only builds it] [--full] [--fallback] [--mmsim FILE]
+  size                instructions, flash, memory and stack of the controller on microcontrollers [--json] [--bless] [--fallback]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -138,6 +140,15 @@ fn run() -> Result<ExitCode> {
             let command = arguments.value("--mmsim")?;
             arguments.finish()?;
             pil::run(&options, || mmsim::Mmsim::find(command, mmsim::Profile::Release))?
+        }
+        "size" => {
+            let options = size::Options {
+                json: arguments.flag("--json"),
+                bless: arguments.flag("--bless"),
+                fallback: arguments.flag("--fallback"),
+            };
+            arguments.finish()?;
+            size::run(&options)?
         }
         "real-time" => {
             let runs = arguments.value("--runs")?;

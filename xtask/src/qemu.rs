@@ -4,7 +4,7 @@
 //! program `digest` gets recordings of the bundled scenarios, made here, computes them again and compares.
 
 mod bits;
-mod machine;
+pub(crate) mod machine;
 mod programs;
 mod symbols;
 

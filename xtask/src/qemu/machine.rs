@@ -76,16 +76,26 @@ pub(crate) fn install_emulators() -> Result<()> {
 impl Machine {
     /// Runs a program to its end, at most for `patience`, with a file as its argument.
     pub(crate) fn run(&self, program: &Path, file: Option<&Path>, patience: Duration) -> Result<Run> {
-        let mut qemu = command_with("timeout", &[&patience.as_secs().to_string()]);
-        qemu.args(self.arguments);
-        qemu.args(["-display", "none", "-monitor", "none", "-serial", "none", "-semihosting-config"]);
         let mut semihosting = "enable=on,target=native".to_owned();
         if let Some(file) = file {
             // A comma would end the argument.
             semihosting += &format!(",arg={}", file.display().to_string().replace(',', ",,"));
         }
+        self.end(&["-semihosting-config", &semihosting], program, patience)
+    }
+
+    /// The same with 2^10 ns of the machine's time for every instruction, so that its timer counts them.
+    pub(crate) fn count(&self, program: &Path, patience: Duration) -> Result<Run> {
+        let arguments = ["-semihosting-config", "enable=on,target=native", "-icount", "shift=10"];
+        self.end(&arguments, program, patience)
+    }
+
+    fn end(&self, arguments: &[&str], program: &Path, patience: Duration) -> Result<Run> {
+        let mut qemu = command_with("timeout", &[&patience.as_secs().to_string()]);
+        qemu.args(self.arguments).args(["-display", "none", "-monitor", "none", "-serial", "none"]);
+        qemu.args(arguments).arg("-kernel").arg(program);
         let begin = Instant::now();
-        let output = qemu.arg(semihosting).arg("-kernel").arg(program).output();
+        let output = qemu.output();
         let output =
             output.with_context(|| format!("cannot start the emulator of the {}", self.processor))?;
         let mut text = String::from_utf8_lossy(&output.stdout).into_owned();
