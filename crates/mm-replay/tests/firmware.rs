@@ -4,6 +4,8 @@
 //! qemu` compares with what the machines print. No tolerance: bits. `MMSIM_BLESS=1` writes the table of `control-tick` and
 //! the texts anew.
 
+#![expect(clippy::expect_used, reason = "helpers outside of test functions")]
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -101,6 +103,7 @@ pub(crate) struct Row {
 
 /// One period after the other.
 #[rustfmt::skip]
+#[expect(clippy::approx_constant, reason = \"measured angles\")]
 pub(crate) static TABLE: [Row; 32] = [
 ";
     compare("tick/src/table.rs", &format!("{head}{}];\n", rows.0));

@@ -4,6 +4,8 @@
 //! Why: `cargo xtask qemu` takes the silence of a replay as proof that a target computes the host's bits. References: the recording
 //! itself, and the known place of a bit that is flipped in it. No tolerance: bits.
 
+#![expect(clippy::expect_used, clippy::panic, reason = "helpers of tests fail as tests do")]
+
 use mm_control::{LawKind, Measurement, Reference, WheelAngles};
 use mm_link::Setup;
 use mm_model::{Configuration, RobotParams, Velocity};

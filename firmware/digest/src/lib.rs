@@ -1,6 +1,7 @@
 //! Computes recordings again, one after the other, and compares every bit; prints a line for each, or the first bit that differs.
 //!
-//! There is one program for each precision: both together are more than the flash of a small microcontroller. The file is named on the command line of the emulator or debugger: `-semihosting-config enable=on,target=native,arg=FILE`.
+//! There is one program for each precision: both together are more than the flash of a small microcontroller. The file is named on the
+//! command line of the emulator or debugger: `-semihosting-config enable=on,target=native,arg=FILE`.
 #![no_std]
 #![cfg(target_os = "none")]
 

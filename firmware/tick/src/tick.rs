@@ -3,6 +3,7 @@
 use core::fmt::Write;
 
 use mm_control::fuzzy::Surface;
+use mm_control::supervisor::Mode;
 use mm_control::{
     Bfsmc, Command, ControlStack, Estimator, Gains, Input, LawKind, OuterParams, Reference, SetupError,
     StackParams, SupervisedStack, SupervisedState, SupervisorParams, Timing,
@@ -22,12 +23,13 @@ const PERIOD: f32 = 1e-3;
 pub(crate) fn run(out: &mut impl Write) -> bool {
     let Ok(stack) = stack() else { return false };
     let mut state = stack.initial_state();
-    let mut checksum = 0;
+    let (mut runs, mut checksum) = (0, 0);
     for row in &TABLE {
         let command = update(&stack, &mut state, &input(row));
+        runs += u32::from(command.mode == Mode::Run);
         checksum = added(checksum, &command);
     }
-    writeln!(out, "control-tick updates={} checksum={checksum:08x}", TABLE.len()).is_ok()
+    writeln!(out, "control-tick updates={} runs={runs} checksum={checksum:08x}", TABLE.len()).is_ok()
 }
 
 /// The robot of the thesis under the law `bfsmc`, as they are.
