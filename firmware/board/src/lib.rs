@@ -27,12 +27,14 @@ mod host;
 #[cfg_attr(machine = "virt", path = "virt.rs")]
 mod machine;
 mod panics;
+mod place;
 mod register;
 mod stack;
 
 pub use host::{Console, File, argument, exit};
 pub use machine::{Clock, Serial, entry};
 pub use panics::{refuse, report};
+pub use place::Place;
 pub use stack::Stack;
 
 /// The machine.

@@ -14,18 +14,16 @@ use nalgebra::Vector3;
 use crate::table::{Row, TABLE};
 
 /// The stack, of one law with one kind of fuzzy system: nothing of the others is linked.
-type Stack = SupervisedStack<f32, 3, Bfsmc<f32, 3, Surface<f32, 65>>>;
+pub(crate) type Stack = SupervisedStack<f32, 3, Bfsmc<f32, 3, Surface<f32, 65>>>;
 
 /// Time between two updates, s.
 const PERIOD: f32 = 1e-3;
 
 /// Updates and prints a checksum of what came out; whether that worked.
-pub(crate) fn run(out: &mut impl Write) -> bool {
-    let Ok(stack) = stack() else { return false };
-    let mut state = stack.initial_state();
+pub(crate) fn run(out: &mut impl Write, (stack, state): (&Stack, &mut SupervisedState<f32, 3>)) -> bool {
     let (mut runs, mut checksum) = (0, 0);
     for row in &TABLE {
-        let command = update(&stack, &mut state, &input(row));
+        let command = update(stack, state, &input(row));
         runs += u32::from(command.mode == Mode::Run);
         checksum = added(checksum, &command);
     }
@@ -33,7 +31,7 @@ pub(crate) fn run(out: &mut impl Write) -> bool {
 }
 
 /// The robot of the thesis under the law `bfsmc`, as they are.
-fn stack() -> Result<Stack, SetupError> {
+pub(crate) fn stack() -> Result<Stack, SetupError> {
     let robot = Robot::try_new(RobotParams::thesis())?;
     let gains = Gains::for_robot(&robot, LawKind::Bfsmc, PERIOD);
     let outer = OuterParams::for_robot(&robot);
