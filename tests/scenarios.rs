@@ -43,6 +43,7 @@ fn the_names_are_those_of_the_interface() {
         "square-smooth",
         "square-realistic",
         "payload-drop",
+        "square-faults",
         "step-disturbed",
         "verify-circle",
         "verify-joint2",

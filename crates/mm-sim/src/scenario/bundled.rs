@@ -27,6 +27,7 @@ static BUNDLED: &[(&str, &str)] = bundle![
     "square-compare",
     "square-realistic",
     "payload-drop",
+    "square-faults",
 ];
 
 /// Returns the name and the text of every bundled scenario, in the order of the thesis.
