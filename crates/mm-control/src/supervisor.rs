@@ -59,6 +59,8 @@ pub struct SupervisedState<T, const N: usize> {
     doubt: Velocity<T, N>,
     /// Posture at the beginning of the stop, rad.
     posture: [T; N],
+    /// What the law had learned of the joints' loads while no coordinate was in doubt, N m.
+    load: [T; N],
     /// Time since a state was plausible, and time of early updates, s.
     since: T,
     waited: T,
@@ -110,6 +112,7 @@ where
             predicted: (Configuration::zero(), Velocity::zero()),
             doubt: Velocity::zero(),
             posture: [T::ZERO; N],
+            load: [T::ZERO; N],
             since: T::ZERO,
             waited: T::ZERO,
         }

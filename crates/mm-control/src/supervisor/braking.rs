@@ -8,7 +8,7 @@ use mm_model::{Angle, Configuration, Force, Mechanism, Real, Robot, Torque, Velo
 /// f = g(q) - d_hat - D nu - K (q - q_s),   D = rate M_e,   K = rate^2/2 M_e (joints alone),   tau = B^-1 f within the limits
 /// ```
 /// M_e is the effective inertia 1/(M^-1)_ii at the rest posture, q_s the posture at the beginning of the stop, d_hat what the law had learned
-/// of the joints' loads, so that an arm heavier than its model does not sink. With V = nu'M nu/2 + (q - q_s)'K(q - q_s)/2 and
+/// of the joints' loads while it saw them, so that an arm heavier than its model does not sink. With V = nu'M nu/2 + (q - q_s)'K(q - q_s)/2 and
 /// dM/dt - 2C skew, V' = -nu'D nu - nu'friction <= 0 for the nominal robot: the spring is relaxed at the beginning, so V is
 /// the kinetic energy there and the arm never leaves q_s by more than that allows. The eigenvalues of M^-1 D sum to (2 + N) rate at the rest
 /// posture; with rate at most 0.1 per period none reaches the 2 per period at which a held torque destabilizes.
@@ -46,13 +46,12 @@ where
         robot: &Robot<T, N>,
         (q, nu): (&Configuration<T, N>, &Velocity<T, N>),
         posture: &[T; N],
-        learned: &Force<T, N>,
+        learned: &[T; N],
     ) -> Torque<T, N> {
         let load = robot.gravity(&robot.inertia(&robot.posture(&q.joints)));
         let mut force =
             Velocity::zip(*nu, Velocity::from_channels(self.damping.channels()), |nu, d| -(nu * d));
-        let joints =
-            load.joints.iter().zip(learned.joints).zip(q.joints.iter().zip(posture)).zip(self.stiffness);
+        let joints = load.joints.iter().zip(*learned).zip(q.joints.iter().zip(posture)).zip(self.stiffness);
         for (force, (((load, learned), (q, posture)), stiffness)) in force.joints.iter_mut().zip(joints) {
             *force += *load - learned - stiffness * (*q - *posture);
         }
@@ -60,17 +59,18 @@ where
         limited(robot, wanted)
     }
 
-    /// Where the robot is after a time under a torque, by its nominal model.
+    /// Where the robot is after a time under a generalized force, by its nominal model.
     ///
+    /// The force is that of the torque and what the law had learned of the joints' loads: a load that [`torque`](Self::torque) carries,
+    /// but that the prediction did not know, would seem to push the arm away, and the spring would take its share back.
     /// Semi-implicit Euler, a period at a time; beyond the few periods that a prediction is worth anything the robot is taken to stay.
     pub(super) fn predict(
         &self,
         robot: &Robot<T, N>,
         (last_q, last_nu): &mut (Configuration<T, N>, Velocity<T, N>),
-        torque: &Torque<T, N>,
+        force: &Force<T, N>,
         elapsed: T,
     ) {
-        let force = robot.force_of(torque);
         let mut left = elapsed;
         for _ in 0..self.steps {
             let step = left.min(self.step);
@@ -79,7 +79,7 @@ where
             }
             left -= step;
             let inertia = robot.inertia(&robot.posture(&last_q.joints));
-            let nu = last_nu.plus(robot.acceleration(&inertia, last_nu, &force).scaled(step));
+            let nu = last_nu.plus(robot.acceleration(&inertia, last_nu, force).scaled(step));
             let rate = Robot::<T, N>::configuration_rate(Angle::of(last_q.heading), &nu);
             let mut q = Configuration {
                 x: last_q.x + step * rate.x,

@@ -46,6 +46,7 @@ where
     #[inline(never)]
     fn examine(&self, state: &mut SupervisedState<T, N>, timing: Timing<T>, input: &Input<T, N>) -> Verdict {
         let Input { q, nu, reference } = input;
+        self.note_load(state);
         let clocked = self.plausibility.clocked(timing, state.waited);
         let since = state.since + clocked.elapsed;
         let last = state.seen.then_some(&state.believed);
@@ -75,6 +76,7 @@ where
         reference: &Reference<T>,
     ) -> Verdict {
         let Measurement { q, wheels } = measurement;
+        self.note_load(state);
         let clocked = self.plausibility.clocked(timing, state.waited);
         let last = state.seen.then_some(&state.believed);
         let mut findings =
@@ -108,6 +110,7 @@ where
 
     /// What becomes of the mode without any input.
     pub(super) fn judge_missed(&self, state: &mut SupervisedState<T, N>, elapsed: T) -> Findings {
+        self.note_load(state);
         let period = self.stack.period();
         // A period was missed, whatever its clock says.
         let elapsed = if elapsed >= T::ZERO { elapsed } else { period };
@@ -174,6 +177,17 @@ where
         state.calm = false;
     }
 
+    /// Keeps what the law has learned of the joints' loads, unless it may have learned it from a sensor that stands still.
+    ///
+    /// To an observer a coordinate that does not move under a torque is a load as large as that torque; a stop that carried it would throw
+    /// the arm.
+    fn note_load(&self, state: &mut SupervisedState<T, N>) {
+        let running = matches!(state.machine.mode, Mode::Run | Mode::Hold);
+        if running && !self.plausibility.is_doubtful(&state.doubt) {
+            state.load = state.control.learned().joints;
+        }
+    }
+
     /// Carries on what is believed without a measurement.
     fn lose(&self, state: &mut SupervisedState<T, N>, clocked: &Clocked<T>) {
         // The time of an early update is counted when the next one is due.
@@ -182,7 +196,12 @@ where
         }
         if state.seen {
             state.predicted = state.whereabouts();
-            self.braking.predict(self.stack.robot(), &mut state.predicted, &state.torque, clocked.elapsed);
+            let robot = self.stack.robot();
+            let mut force = robot.force_of(&state.torque);
+            for (force, learned) in force.joints.iter_mut().zip(&state.load) {
+                *force += *learned;
+            }
+            self.braking.predict(robot, &mut state.predicted, &force, clocked.elapsed);
         }
         state.since += clocked.elapsed;
         if state.machine.mode == Mode::Stop {
@@ -238,9 +257,8 @@ where
         let torque = match mode {
             Mode::Run | Mode::Hold => state.torque,
             Mode::Stop if state.seen => {
-                let learned = *state.control.learned();
                 let (q, nu) = state.whereabouts();
-                self.braking.torque(robot, (&q, &nu), &state.posture, &learned)
+                self.braking.torque(robot, (&q, &nu), &state.posture, &state.load)
             }
             Mode::Stop | Mode::Fault => Torque::zero(),
         };
@@ -261,6 +279,7 @@ where
     #[cold]
     #[inline(never)]
     pub(super) fn refused(&self, state: &mut SupervisedState<T, N>, findings: Findings) -> Command<T, N> {
+        self.note_load(state);
         self.step(state, Brought { plausible: false, sees: true, overdue: false });
         self.safe(state, findings.and(Findings::REFUSED))
     }

@@ -260,6 +260,12 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
         doubt.channels().any(|doubt| !(doubt.abs() <= self.params.position_noise))
     }
 
+    /// Whether a doubt is larger than a sensor's resolution explains: 1/16 of what makes it certain.
+    pub(super) fn is_doubtful(&self, doubt: &Velocity<T, N>) -> bool {
+        let some = self.params.position_noise / T::from_u32(STRAINED);
+        doubt.channels().any(|doubt| !(doubt.abs() <= some))
+    }
+
     /// The time that a change is measured against, s: one and a half of what has passed, at least of a period.
     fn allowed(&self, since: T) -> T {
         (T::ONE + T::HALF) * since.max(self.period)
