@@ -234,6 +234,10 @@ fn mistakes_are_answered_with_what_to_do() {
     let (code, text) = pil(&["--target", "serial:/dev/none", "--inject", "drop=2"]);
     assert_eq!(code, Some(2), "{text}");
     assert!(text.contains("`drop` must lie between 0 and 0.5"), "{text}");
+    let fault = ["--set", "fault=[{kind='nan', on='state', from_s=0.1, to_s=0.2}]"];
+    let (code, text) = pil(&[&["--target", "serial:/dev/none"][..], &fault].concat());
+    assert_eq!(code, Some(2), "{text}");
+    assert!(text.contains("faults are not injected into what a target sees"), "{text}");
     let (code, text) = pil(&["--target", "serial:/dev/none", "--set", "controller.fuzzy_engine='sampled'"]);
     assert_eq!(code, Some(2), "{text}");
     assert!(text.contains("no firmware samples the output sets"), "{text}");

@@ -6,14 +6,21 @@ use mm_link::{Fuzzy, Pace, Setup};
 use super::{Simulation, controller};
 use crate::scenario::{FuzzyEngine, Loaded, ScenarioError};
 
-/// The controller of a closed loop as a message.
+/// The controller of a closed loop as a message; its supervisor has the limits of the scenario, or those that follow from the robot.
 ///
 /// # Errors
-/// A fuzzy system from a file, or evaluated in a way that no target has: its tables do not travel.
+/// Faults, which corrupt what a controller here would see; a fuzzy system from a file, or evaluated in a way that no target has: its tables do not travel.
 pub fn setup(loaded: &Loaded, simulation: &Simulation) -> Result<Setup<f64>, ScenarioError> {
     let robot = simulation.stack.robot();
     let (law, stack) = controller::params(loaded, robot)?;
-    let supervisor = SupervisorParams::for_robot(robot, stack.period);
+    let guard = simulation.guard.as_deref();
+    if guard.is_some_and(|guard| !guard.faults.is_empty()) {
+        let message = "faults are not injected into what a target sees";
+        return Err(loaded.problem("fault", message, "none; `--inject` damages frames instead"));
+    }
+    let supervised = guard.and_then(|guard| guard.supervisor.as_ref());
+    let supervisor = supervised
+        .map_or_else(|| SupervisorParams::for_robot(robot, stack.period), |supervised| *supervised.params());
     Ok(Setup {
         law,
         fuzzy: fuzzy(loaded, law)?,
