@@ -125,12 +125,12 @@ fn test(tests: &mut Tests, selection: &[&str]) -> Result<End> {
 /// The rest is the same code over them and was tested in the dev profile.
 fn release_tests(tests: &mut Tests) -> Result<End> {
     let mut selection = vec!["--workspace".to_owned(), "--profile=testrelease".to_owned()];
-    for name in ["mm-model", "mm-control", "mm-link"] {
+    for name in ["mm-model", "mm-control", "mm-link", "mm-replay"] {
         selection.extend(test_targets(name)?.into_iter().map(|target| format!("--test={target}")));
     }
     selection.extend(GOLDEN.map(|target| format!("--test={target}")));
     // What the next steps use, built with the features of the whole workspace.
-    selection.push("--example=evaluate".to_owned());
+    selection.extend(["--example=evaluate", "--example=record"].map(str::to_owned));
     test(tests, &selection.iter().map(String::as_str).collect::<Vec<_>>())?;
     // Every number of single precision, one by one: among the unit tests.
     test(tests, &["-p", "mm-model", "--features", "std", "--lib", "--profile", "testrelease"])
