@@ -24,6 +24,10 @@ const RUNAWAY: &str = "name = \"away\"\n[simulation]\nduration_s = 10\n[robot]\n
 const MISSES: &str = "name = \"short\"\n[simulation]\nduration_s = 0.1\n[trajectory]\nkind = \"spiral\"\n\
     [expect]\nmax_error_m = { max = 0.01 }\nsettling_time_s = { max = 0.05 }\n";
 
+/// A controller that hears nothing more from 0.5 s on.
+const LOST: &str = "name = \"lost\"\n[simulation]\nduration_s = 2\n[trajectory]\nkind = \"sinusoid\"\n\
+    [controller.supervisor]\nenabled = true\n[[fault]]\non = \"clock\"\nkind = \"drop\"\nfrom_s = 0.5\n";
+
 fn summary(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("not one JSON object ({error}):\n{text}"))
 }
@@ -50,6 +54,35 @@ fn a_run_that_diverges_says_when_and_what_and_keeps_its_log() {
     assert_eq!(log.result["outcome"], "diverged", "how it ended");
     assert!(log.topics["/control"] > 300, "what led there is in the log: {:?}", log.topics);
     assert_eq!(summary(&log.attachments["summary.json"]), value, "the summary is in the log");
+}
+
+#[test]
+fn a_robot_that_is_given_up_fails_the_run_and_says_what_the_supervisor_did() {
+    let folder = Folder::new("lost");
+    folder.write("lost.toml", LOST);
+    let ended = folder.expect(1, &["--scenario", "lost.toml", "--json"]);
+    let told = "the supervisor gave up at t = 1.000 s (missed); the simulated robot has no brakes";
+    let did = "the supervisor found 501 missed, first missed at t = 0.500 s; it held the torque for 2 updates, stopped it 1 \
+               time(s), first at t = 0.502 s, for 498 updates";
+    for line in [format!("error: lost.toml: {told}"), format!("warning: {did}")] {
+        assert!(ended.stderr.lines().any(|said| said == line), "{line:?} is not in:\n{}", ended.stderr);
+    }
+    assert!(ended.stderr.contains("out/lost.mcap"), "the log is named:\n{}", ended.stderr);
+    let value = summary(&ended.stdout);
+    assert_eq!((&value["ended"], &value["simulated_s"]), (&"fault".into(), &1.0.into()));
+    assert_eq!(value["warnings"], serde_json::json!([did, told]), "both among the warnings");
+    let expected = serde_json::json!({
+        "mode": "fault", "held_periods": 2, "stopped_periods": 498, "stops": 1, "first_stop_s": 0.502,
+        "findings": [{ "finding": "missed", "periods": 501, "first_s": 0.5 }],
+    });
+    assert_eq!(value["supervisor"], expected, "2 held, 500 blind, the next is a fault");
+    let log = complete_log(&folder.path("out/lost.mcap"));
+    assert_eq!(log.result["outcome"], "fault", "how it ended");
+    let unsupervised = folder.expect(
+        0,
+        &["--scenario", "lost.toml", "--json", "--no-log", "--set", "controller.supervisor.enabled=false"],
+    );
+    assert!(summary(&unsupervised.stdout)["supervisor"].is_null(), "nothing to tell without one");
 }
 
 #[test]

@@ -148,9 +148,8 @@ pub(super) fn execute_with(
     let (outcome, exit) = match result.ending {
         Ending::Finished => (Outcome::Finished, Exit::Done),
         Ending::Stopped { .. } => (Outcome::Interrupted, Exit::Failed),
-        Ending::Diverged { .. } | Ending::Faulted { .. } | Ending::Refused { .. } => {
-            (Outcome::Diverged, Exit::Failed)
-        }
+        Ending::Faulted { .. } => (Outcome::Faulted, Exit::Failed),
+        Ending::Diverged { .. } | Ending::Refused { .. } => (Outcome::Diverged, Exit::Failed),
     };
     recorder.finish(outcome, &summary.to_json(), &summary.digest).map_err(|error| fail(&error))?;
     if let Some(text) = ended {

@@ -32,6 +32,8 @@ pub enum Outcome {
     Finished,
     /// It left the bounds in which its numbers mean anything.
     Diverged,
+    /// The supervisor gave the robot up.
+    Faulted,
     /// It was asked to stop.
     Interrupted,
 }
@@ -43,6 +45,7 @@ impl Outcome {
         match self {
             Self::Finished => "finished",
             Self::Diverged => "diverged",
+            Self::Faulted => "fault",
             Self::Interrupted => "interrupted",
         }
     }
