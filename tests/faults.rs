@@ -18,7 +18,7 @@ use core::fmt::Write as _;
 use mm_model::{Robot, Velocity};
 use mm_sim::scenario::bundled;
 use mm_sim::simulation::{Ending, Recorder, Sample, SupervisorReport};
-use mm_tests::{Random, build, closed, load, load_text, measured, run};
+use mm_tests::{Random, build, closed, load, load_text, measured, recorded, run};
 
 /// Name and keys of a fault that begins at 0.6 s.
 const PATTERNS: [(&str, &str); 36] = [
@@ -237,4 +237,21 @@ fn without_a_fault_the_supervisor_is_not_noticed() {
         assert_eq!(supervised.ending, Ending::Finished, "{name}");
         assert_eq!(alone.supervisor, None, "{name}: no report without one");
     }
+}
+
+#[test]
+fn the_bundled_faults_are_all_found_and_tracking_goes_on() {
+    let loaded = load("square-faults", &["simulation.log_rate_hz=1000"]);
+    let (ticks, result) = recorded(&build(&loaded));
+    let missed = mm_sim::summary::missed(&loaded.file.expect, &result.metrics);
+    assert!(missed.is_empty(), "square-faults misses {missed:?}");
+    let Some(report) = &result.supervisor else { panic!("square-faults has no supervisor") };
+    let found: Vec<_> = report.findings.iter().map(|found| found.finding).collect();
+    assert_eq!(found, ["state-not-finite", "state-rate", "state-frozen", "late", "missed"]);
+    assert_eq!((report.mode, report.stops), ("run", 3), "twenty lost inputs, and an encoder stuck for long");
+    // The last fault is over at 14 s.
+    let late = ticks.iter().filter(|tick| tick.t > 15.0).map(|tick| (tick.tip - tick.desired).norm());
+    let late = late.fold(0.0, f64::max);
+    measured("square-faults: largest error from 15 s on, m", late);
+    assert!(late < 1e-4, "the tip is on its reference again: {late} m");
 }
