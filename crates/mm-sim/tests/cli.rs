@@ -58,7 +58,7 @@ const KEYS: &str = "schema scenario controller duration_s plant_step_s control_p
     monitors.torque_limited_fraction.right monitors.torque_limited_fraction.left \
     monitors.torque_limited_fraction.joints monitors.near_singular.fraction monitors.near_singular.first_s \
     monitors.speed_limited.fraction monitors.speed_limited.first_s monitors.joint_limited.fraction \
-    monitors.joint_limited.first_s digest real_time_factor wall_s log warnings";
+    monitors.joint_limited.first_s supervisor digest real_time_factor wall_s log warnings";
 
 fn summary(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("not one JSON object ({error}):\n{text}"))
