@@ -7,7 +7,7 @@ use anyhow::{Result, ensure};
 
 use crate::mmsim::{Mmsim, Profile};
 use crate::shell::{answers, cargo, root, run as run_command, watch};
-use crate::{bench_targets, capi, fuzzy_peers, pil, qemu, scenarios, size};
+use crate::{bench_targets, fuzzy_peers, scenarios, size};
 
 /// How a step ended, unless it failed.
 enum End {
@@ -26,7 +26,7 @@ struct Tests {
 /// A step: what it is called and what it does.
 type Step = (&'static str, fn(&mut Tests) -> Result<End>);
 
-const STEPS: [Step; 13] = [
+const STEPS: [Step; 10] = [
     ("format", |_| cargo_step(&["fmt", "--all", "--check"])),
     ("clippy", |_| {
         cargo_step(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])
@@ -51,16 +51,8 @@ const STEPS: [Step; 13] = [
         scenarios::run(&Mmsim::find(None, Profile::TestRelease)?)?;
         Ok(End::Done)
     }),
-    ("microcontrollers: programs and every bit of the controller", |_| {
-        succeeded(qemu::run(&qemu::Options::default())?)
-    }),
     ("microcontrollers: instructions, flash, memory, stack", |_| {
         succeeded(size::run(&size::Options::default())?)
-    }),
-    ("C interface", |_| succeeded(capi::run(&capi::Request::default())?)),
-    ("processor in the loop", |_| {
-        let options = pil::Options { build: false, full: false, fallback: false };
-        succeeded(pil::run(&options, || Mmsim::find(None, Profile::TestRelease))?)
     }),
     ("licences and sources of dependencies", |_| deny()),
 ];
