@@ -23,7 +23,7 @@ pub enum Mode {
     Hold,
     /// The robot is brought to rest and its weight held.
     Stop,
-    /// No torque, brakes on; left by [`SupervisedStack::reset`] only.
+    /// No torque, brakes on; left by [`SupervisedStack::reset`](crate::SupervisedStack::reset) only.
     Fault,
 }
 
