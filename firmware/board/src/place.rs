@@ -22,6 +22,7 @@ impl<T> Place<T> {
     }
 
     /// Fills the place and hands it out; none where that was done before.
+    #[expect(clippy::mut_from_ref, reason = "it is handed out once: the flag sees to that")]
     #[inline(always)]
     pub fn fill(&'static self, value: T) -> Option<&'static mut T> {
         if self.taken.replace(true) {
