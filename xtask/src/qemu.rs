@@ -42,7 +42,7 @@ pub(crate) struct Options {
 /// Builds and runs all programs on all machines.
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     let begin = Instant::now();
-    machine::install_emulators()?;
+    machine::install_emulators(&machine::MACHINES)?;
     let say = |text: &str| {
         if !options.json {
             println!("{text}");

@@ -51,7 +51,7 @@ const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Measures, shows and compares.
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
-    machine::install_emulators()?;
+    machine::install_emulators(&MACHINES)?;
     let directory = build(options.fallback)?;
     let here = bench_targets::counts(&bench_targets::on_host()?)?;
     let numbers = parallel::map(&MACHINES, |machine| measured(&directory, machine, &here));

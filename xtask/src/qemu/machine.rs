@@ -62,12 +62,13 @@ pub(crate) struct Run {
     pub(crate) took: Duration,
 }
 
-/// Installs the emulators where they are missing.
-pub(crate) fn install_emulators() -> Result<()> {
+/// Installs the emulators of these machines where they are missing.
+pub(crate) fn install_emulators(machines: &[Machine]) -> Result<()> {
     let needed = [("qemu-system-arm", "qemu-system-arm"), ("qemu-system-riscv32", "qemu-system-misc")];
+    let is_used = |program: &str| machines.iter().any(|machine| machine.arguments.first() == Some(&program));
     let missing: Vec<&str> = needed
         .into_iter()
-        .filter(|(program, _)| !answers(program, &["--version"]))
+        .filter(|(program, _)| is_used(program) && !answers(program, &["--version"]))
         .map(|(_, package)| package)
         .collect();
     if missing.is_empty() { Ok(()) } else { install(&missing) }
