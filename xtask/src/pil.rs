@@ -112,7 +112,8 @@ fn build(fallback: bool) -> Result<PathBuf> {
         compiler.cargo.current_dir(root().join("firmware"));
         folder = compiler.directory.join("firmware");
         compiler.cargo.env("CARGO_TARGET_DIR", &folder);
-        compiler.cargo.args(["--release", "--locked", "--bin", "pil"]).args(features);
+        // By its package: the features of the other programs are none of its own.
+        compiler.cargo.args(["--release", "--locked", "--package", "pil"]).args(features);
         for target in targets {
             compiler.cargo.args(["--target", target]);
         }
