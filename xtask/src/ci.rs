@@ -3,11 +3,11 @@
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 
 use crate::mmsim::{Mmsim, Profile};
 use crate::shell::{answers, cargo, root, run as run_command, watch};
-use crate::{bench_targets, fuzzy_peers, scenarios, size};
+use crate::{bench_targets, fuzzy_peers, scenarios};
 
 /// How a step ended, unless it failed.
 enum End {
@@ -26,7 +26,7 @@ struct Tests {
 /// A step: what it is called and what it does.
 type Step = (&'static str, fn(&mut Tests) -> Result<End>);
 
-const STEPS: [Step; 10] = [
+const STEPS: [Step; 9] = [
     ("format", |_| cargo_step(&["fmt", "--all", "--check"])),
     ("clippy", |_| {
         cargo_step(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])
@@ -50,9 +50,6 @@ const STEPS: [Step; 10] = [
     ("scenarios", |_| {
         scenarios::run(&Mmsim::find(None, Profile::TestRelease)?)?;
         Ok(End::Done)
-    }),
-    ("microcontrollers: instructions, flash, memory, stack", |_| {
-        succeeded(size::run(&size::Options::default())?)
     }),
     ("licences and sources of dependencies", |_| deny()),
 ];
@@ -92,12 +89,6 @@ pub(crate) fn run() -> Result<ExitCode> {
     }
     println!("{} passed, {} failed", tests.passed, tests.failed);
     Ok(if failure.is_none() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
-}
-
-/// A job of its own as a step.
-fn succeeded(code: ExitCode) -> Result<End> {
-    ensure!(code == ExitCode::SUCCESS, "see above");
-    Ok(End::Done)
 }
 
 fn cargo_step(arguments: &[&str]) -> Result<End> {
