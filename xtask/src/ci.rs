@@ -112,8 +112,6 @@ fn release_tests(tests: &mut Tests) -> Result<End> {
         selection.extend(test_targets(name)?.into_iter().map(|target| format!("--test={target}")));
     }
     selection.extend(GOLDEN.map(|target| format!("--test={target}")));
-    // What the next steps use, built with the features of the whole workspace.
-    selection.extend(["--example=evaluate", "--example=record"].map(str::to_owned));
     test(tests, &selection.iter().map(String::as_str).collect::<Vec<_>>())?;
     // Every number of single precision, one by one: among the unit tests.
     test(tests, &["-p", "mm-model", "--features", "std", "--lib", "--profile", "testrelease"])

@@ -189,8 +189,8 @@ fn number(line: &str, key: &str) -> Option<u64> {
 
 /// The program that records.
 fn recorder() -> Result<PathBuf> {
-    // Tests of the whole workspace, so that features and with them all objects are those of the test steps.
-    let mut cargo = cargo(&["test", "--workspace", "--quiet", "--locked", "--no-run"]);
+    // Of the whole workspace, so that features and with them all objects are those of the test steps.
+    let mut cargo = cargo(&["build", "--workspace", "--quiet", "--locked"]);
     run_command(cargo.args(["--profile", "testrelease", "--example", "record"]))?;
     Ok(target_directory()?.join("testrelease/examples/record"))
 }
