@@ -14,6 +14,7 @@ mod message;
 mod node;
 mod scalar;
 mod setup;
+pub mod signals;
 mod stages;
 
 pub use frame::{
@@ -23,4 +24,5 @@ pub use message::{Command, Counters, Ready, Reason, Refusal, Report, Seen, Tick}
 pub use node::{Applied, Clock, Identity, Node, Port};
 pub use scalar::Scalar;
 pub use setup::{Fuzzy, Pace, Setup};
-pub use stages::{Stage, Stages};
+pub use signals::{Signal, Stage};
+pub use stages::Stages;

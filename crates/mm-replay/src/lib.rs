@@ -24,7 +24,7 @@
 //! | 4 | ticks |
 //! | | name, in ASCII |
 //! | | setup, as postcard writes it |
-//! | per tick | number of the tick, 4 bytes; what enters, [`Seen`], and the reference, 9 numbers; what came out, [`SIGNALS`]; outcomes, 4 bytes |
+//! | per tick | number of the tick, 4 bytes; what enters, [`Seen`], and the reference, 9 numbers; what came out, [`SIGNALS`](mm_link::signals::SIGNALS); outcomes, 4 bytes |
 #![cfg_attr(not(test), no_std)]
 #![deny(
     clippy::indexing_slicing,
@@ -39,12 +39,11 @@ mod failure;
 mod format;
 mod recording;
 mod replay;
-mod signals;
 mod word;
 
 pub use failure::{Difference, Failure, Name};
 pub use format::{Entry, Head, Seen, VERSION};
+pub use mm_link::signals::{SIGNALS, Signal, Stage};
 pub use recording::{Full, RecordError, Recording, Sink};
 pub use replay::{Replayed, Source, replay, replay_in};
-pub use signals::{SIGNALS, Signal, Stage};
 pub use word::Word;

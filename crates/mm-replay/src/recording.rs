@@ -3,10 +3,10 @@
 use core::fmt;
 
 use mm_control::{ControlError, ControlStack, ControlState, Output, SetupError};
-use mm_link::Setup;
+use mm_link::{Setup, signals};
 
 use crate::format::{self, Entry, Head, Seen};
-use crate::{Name, Word, signals};
+use crate::{Name, Word};
 
 /// Where a recording is written.
 pub trait Sink {

@@ -3,12 +3,12 @@
 use core::fmt;
 
 use mm_control::{ControlStack, ControlState, Output};
-use mm_link::Setup;
+use mm_link::{Setup, signals};
 use xxhash_rust::xxh3::Xxh3;
 
 use crate::format::{self, Entry, Head};
 use crate::recording::update;
-use crate::{Difference, Failure, Name, Signal, Word, signals};
+use crate::{Difference, Failure, Name, Signal, Word};
 
 /// Where a recording is read from.
 pub trait Source {

@@ -6,7 +6,7 @@ use mm_control::{Output, Status};
 use mm_model::Torque;
 use nalgebra::Vector3;
 
-use crate::Word;
+use crate::Scalar;
 
 /// The stages of an update in their order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,9 +17,9 @@ pub enum Stage {
     Kinematics,
     /// nu_r, its rate, the sliding variable, the equivalent force.
     Dynamics,
-    /// The force of the fuzzy system.
+    /// The forces of the fuzzy system and of the observer.
     Fuzzy,
-    /// The learned force, the torque before and after the limits, and the outcomes.
+    /// The torque before and after the limits, and the outcomes.
     Torque,
 }
 
@@ -52,7 +52,7 @@ impl fmt::Display for Signal {
     }
 }
 
-/// What a recording holds of each update, besides the outcomes: stage, name and how many numbers.
+/// What is compared of each update, besides the outcomes: stage, name and how many numbers.
 pub const SIGNALS: [(Stage, &str, usize); 14] = [
     (Stage::Estimate, "nu", 5),
     (Stage::Kinematics, "tip", 3),
@@ -65,13 +65,13 @@ pub const SIGNALS: [(Stage, &str, usize); 14] = [
     (Stage::Dynamics, "sliding", 5),
     (Stage::Dynamics, "equivalent", 5),
     (Stage::Fuzzy, "fuzzy", 5),
-    (Stage::Torque, "learned", 5),
+    (Stage::Fuzzy, "learned", 5),
     (Stage::Torque, "commanded", 5),
     (Stage::Torque, "torque", 5),
 ];
 
-/// Numbers that are recorded of each update.
-pub(crate) const COUNT: usize = {
+/// Numbers that are compared of each update.
+pub const COUNT: usize = {
     let mut count = 0;
     let mut rest: &[(Stage, &str, usize)] = &SIGNALS;
     while let [(_, _, numbers), others @ ..] = rest {
@@ -82,7 +82,7 @@ pub(crate) const COUNT: usize = {
 };
 
 /// The numbers of an update, in the order of [`SIGNALS`].
-pub(crate) fn numbers<T: Word>(output: &Output<T, 3>) -> impl Iterator<Item = T> + '_ {
+pub fn numbers<T: Scalar>(output: &Output<T, 3>) -> impl Iterator<Item = T> + '_ {
     let signals = &output.signals;
     let kinematics = space(&signals.tip).chain(space(&signals.error)).chain(signals.nu_c.channels());
     let dynamics = signals.nu_r.channels().chain(signals.dnu_r.channels()).chain(signals.sliding.channels());
@@ -97,8 +97,9 @@ pub(crate) fn numbers<T: Word>(output: &Output<T, 3>) -> impl Iterator<Item = T>
         .chain(torques)
 }
 
-/// Which signal the number at a place is.
-pub(crate) fn signal(mut place: usize) -> Signal {
+/// Which signal the number at a place is; the outcomes behind the last.
+#[must_use]
+pub fn signal(mut place: usize) -> Signal {
     for (stage, name, count) in SIGNALS {
         if place < count {
             return Signal { stage, name, index: place };
@@ -109,17 +110,18 @@ pub(crate) fn signal(mut place: usize) -> Signal {
 }
 
 /// The outcomes, one bit each.
-pub(crate) fn outcomes(status: &Status) -> u32 {
+#[must_use]
+pub fn outcomes(status: &Status) -> u32 {
     let Status { saturated, near_singular, speed_limited, joint_limited, beyond_joint_limit } = *status;
     [saturated, near_singular, speed_limited, joint_limited, beyond_joint_limit]
         .into_iter()
         .rfold(0, |bits, outcome| bits << 1 | u32::from(outcome))
 }
 
-fn space<T: Word>(v: &Vector3<T>) -> impl Iterator<Item = T> {
+fn space<T: Scalar>(v: &Vector3<T>) -> impl Iterator<Item = T> {
     [v.x, v.y, v.z].into_iter()
 }
 
-fn channels<T: Word>(torque: &Torque<T, 3>) -> impl Iterator<Item = T> + '_ {
+fn channels<T: Scalar>(torque: &Torque<T, 3>) -> impl Iterator<Item = T> + '_ {
     [torque.right, torque.left].into_iter().chain(torque.joints)
 }
