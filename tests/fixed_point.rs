@@ -11,19 +11,16 @@
 //! three to five times the largest difference that was measured, see `docs/fixed-point.md`.
 #![expect(clippy::expect_used, reason = "helpers outside of test functions")]
 
-mod fixed_point {
-    pub(crate) mod convert;
-    pub(crate) mod watched;
-}
+mod convert;
+mod watched;
 
-use fixed_point::convert;
-use fixed_point::watched::{Seen, Watched};
 use mm_control::fuzzy::Bundled;
 use mm_control::supervisor::Mode;
 use mm_control::{ControlError, ControlStack, Input, SupervisedStack, SupervisorParams, Timing};
 use mm_model::{Q32, Real, Torque};
 use mm_sim::simulation::Simulation;
 use mm_tests::{closed, load, load_text, measured};
+use watched::{Seen, Watched};
 
 /// What a run of a stack in some scalar gave.
 struct Run {

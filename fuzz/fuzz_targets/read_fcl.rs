@@ -4,7 +4,7 @@
 
 use libfuzzer_sys::fuzz_target;
 
-#[path = "../../crates/mm-fis/tests/common/law.rs"]
+#[path = "../../crates/mm-fis/tests/fis/common/law.rs"]
 mod law;
 
 fuzz_target!(|text: &str| {

@@ -3,7 +3,7 @@
 //!
 //! Reference: the stack, called from Rust with its own types. Exact: bits are compared. Misuse is tested from C, in `c/misuse.c`.
 
-#[path = "../../mm-control/tests/common/random.rs"]
+#[path = "../../mm-control/tests/control/common/random.rs"]
 mod random;
 
 use core::mem::MaybeUninit;

@@ -1,6 +1,6 @@
 //! The smooth rule base tabulated at 65 equally spaced inputs from -1 to 1; generated, not to be edited.
 //!
-//! Made again by: MMSIM_BLESS=1 cargo test -p mm-control --test smooth_knots
+//! Made again by: MMSIM_BLESS=1 cargo test -p mm-control --test control smooth_knots
 
 /// Knots in double precision.
 #[rustfmt::skip]

@@ -84,8 +84,8 @@ pub struct Premise {
 ///
 /// Precision: degrees and strengths are in Q30; an input at which the firing terms have less than a sixteenth of the largest term's area
 /// is evaluated again with strengths on a common exponent, which keeps their ratio. The output is within 2 units of the exact
-/// centroid of the tables: 0.87 for Appendix C, 0.84 for the smooth rule base (`cargo test -p mm-control --test fuzzy_fixed -- --nocapture`),
-/// below 0.85 for random systems (`cargo test -p mm-fis --test compile_q15`); 0.5 of it is rounding.
+/// centroid of the tables: 0.87 for Appendix C, 0.84 for the smooth rule base (`cargo test -p mm-control --test control fuzzy_fixed -- --nocapture`),
+/// below 0.85 for random systems (`cargo test -p mm-fis --test fis compile_q15`); 0.5 of it is rounding.
 ///
 /// Overflow: none. Each operation has a bound that is stated beside it and that [`try_new`](Self::try_new) checks for tables of any origin. No division but one of 32 by 16 bits for each output; no panic.
 ///

@@ -2,7 +2,7 @@
 // Input range [-1.0, 1.0], output range [-1.3333333333333333, 1.3333333333333333], both in units of 2^-15 of their half from their middle.
 // Bound 1.3021e-3, largest error 4.0686e-4 at -0.60009765625, in output units, over all 65536 inputs.
 // 66 knots of 16 bits, 1 section(s), 0 jump(s), 144 bytes.
-// Made again by: MMSIM_BLESS=1 cargo test -p mm-fis --test compile_emit
+// Made again by: MMSIM_BLESS=1 cargo test -p mm-fis --test fis compile_emit
 
 use crate::fuzzy::fixed::{Section, Surface1};
 

@@ -2,7 +2,7 @@
 // Input ranges [-1.4, 1.4]; output ranges [-1.0, 1.0].
 // Corners in units of 2^-15 of half a range from its middle, weights of 2^-30.
 // Within 2 units of the exact centroid of the system with its corners rounded so.
-// Made again by: MMSIM_BLESS=1 cargo test -p mm-fis --test compile_emit
+// Made again by: MMSIM_BLESS=1 cargo test -p mm-fis --test fis compile_emit
 
 use crate::fuzzy::fixed::{Rule, Slot, Tables, Term, Trigger};
 use crate::fuzzy::{And, Connective, Or};

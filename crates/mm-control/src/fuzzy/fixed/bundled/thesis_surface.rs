@@ -2,7 +2,7 @@
 // Input range [-1.4, 1.4], output range [-1.0, 1.0], both in units of 2^-15 of their half from their middle.
 // Bound 9.7656e-4, largest error 6.0705e-4 at -0.2500244140625, in output units, over all 65536 inputs.
 // 513 knots of 16 bits, 1 section(s), 1 jump(s), 1038 bytes.
-// Made again by: MMSIM_BLESS=1 cargo test -p mm-fis --test compile_emit
+// Made again by: MMSIM_BLESS=1 cargo test -p mm-fis --test fis compile_emit
 
 use crate::fuzzy::fixed::{Section, Surface1};
 

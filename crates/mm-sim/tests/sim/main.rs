@@ -1,0 +1,25 @@
+//! Integration tests of the simulator and its command: one program, so that the dependencies are linked and the generic code compiled once.
+
+mod common {
+    pub(crate) mod command;
+}
+
+mod cli;
+mod cli_endings;
+mod cli_fis;
+mod cli_input;
+mod cli_reproduce;
+mod cli_sweep;
+mod cli_tune;
+mod figures;
+mod hardware;
+mod log_roundtrip;
+mod pil;
+mod reproduce;
+mod scenario_bundled;
+mod scenario_errors;
+mod scenario_faults;
+mod scenario_fuzzy;
+mod scenario_gains;
+mod scenario_reference;
+mod scenario_set;
