@@ -3,11 +3,11 @@
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 
 use crate::mmsim::{Mmsim, Profile};
-use crate::shell::{answers, cargo, root, run as run_command, watch};
-use crate::{bench_targets, fuzzy_peers, scenarios};
+use crate::shell::{answers, cargo, run as run_command, watch};
+use crate::{bench_targets, capi, fuzzy_peers, pil, qemu, scenarios, size};
 
 /// How a step ended, unless it failed.
 enum End {
@@ -26,7 +26,7 @@ struct Tests {
 /// A step: what it is called and what it does.
 type Step = (&'static str, fn(&mut Tests) -> Result<End>);
 
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 13] = [
     ("format", |_| cargo_step(&["fmt", "--all", "--check"])),
     ("clippy", |_| {
         cargo_step(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])
@@ -34,11 +34,6 @@ const STEPS: [Step; 9] = [
     ("documentation", |_| {
         let mut cargo = cargo(&["doc", "--workspace", "--no-deps", "--locked"]);
         run_command(cargo.env("RUSTDOCFLAGS", "-D warnings"))?;
-        Ok(End::Done)
-    }),
-    // Building the programs builds mm-model and mm-control for the targets.
-    ("microcontrollers: lints, builds, instructions, bits", |_| {
-        bench_targets::check()?;
         Ok(End::Done)
     }),
     ("tests, dev profile", |tests| test(tests, &["--workspace"])),
@@ -50,6 +45,18 @@ const STEPS: [Step; 9] = [
     ("scenarios", |_| {
         scenarios::run(&Mmsim::find(None, Profile::TestRelease)?)?;
         Ok(End::Done)
+    }),
+    // Building the programs builds mm-model and mm-control for the targets.
+    ("microcontrollers: lints, fuzzy engines", |_| {
+        bench_targets::check()?;
+        Ok(End::Done)
+    }),
+    ("microcontrollers: costs", |_| well(size::run(&size::Options::default())?)),
+    ("microcontrollers: bits", |_| well(qemu::run(&qemu::Options::default())?)),
+    ("microcontrollers: the C interface", |_| well(capi::run(&capi::Request::default())?)),
+    ("microcontrollers: processor in the loop", |_| {
+        let options = pil::Options { scope: pil::Scope::Short, fallback: false };
+        well(pil::run(&options, || Mmsim::find(None, Profile::TestRelease))?)
     }),
     ("licences and sources of dependencies", |_| deny()),
 ];
@@ -91,6 +98,12 @@ pub(crate) fn run() -> Result<ExitCode> {
     Ok(if failure.is_none() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
+/// Turns the verdict of another job into that of a step.
+fn well(code: ExitCode) -> Result<End> {
+    ensure!(code == ExitCode::SUCCESS, "see above");
+    Ok(End::Done)
+}
+
 fn cargo_step(arguments: &[&str]) -> Result<End> {
     run_command(&mut cargo(arguments))?;
     Ok(End::Done)
@@ -103,39 +116,19 @@ fn test(tests: &mut Tests, selection: &[&str]) -> Result<End> {
     Ok(End::Done)
 }
 
-/// The crates of the microcontroller and the golden digests of whole runs in the profile `testrelease`: what other optimizations could change.
+/// What other optimizations could change, in the profile `testrelease`: golden digests of whole runs, recordings computed again, every number of
+/// single precision.
 ///
-/// The rest is the same code over them and was tested in the dev profile.
+/// The rest is the same code over them and was tested in the dev profile; microcontrollers run release code and have to agree with it.
 fn release_tests(tests: &mut Tests) -> Result<End> {
-    let mut selection = vec!["--workspace".to_owned(), "--profile=testrelease".to_owned()];
-    for name in ["mm-model", "mm-control", "mm-link", "mm-replay"] {
-        selection.extend(test_targets(name)?.into_iter().map(|target| format!("--test={target}")));
-    }
-    selection.extend(GOLDEN.map(|target| format!("--test={target}")));
-    test(tests, &selection.iter().map(String::as_str).collect::<Vec<_>>())?;
+    let golden = GOLDEN.map(|target| ["--test", target]).concat();
+    test(tests, &[&["--workspace", "--profile=testrelease"], golden.as_slice()].concat())?;
     // Every number of single precision, one by one: among the unit tests.
     test(tests, &["-p", "mm-model", "--features", "std", "--lib", "--profile", "testrelease"])
 }
 
-/// Test targets with golden digests of whole runs; the first belongs to mm-sim, so that its command is built too.
-const GOLDEN: [&str; 2] = ["plant_variation", "scenarios"];
-
-/// Names of the integration tests of a crate: its files in `tests/`.
-fn test_targets(name: &str) -> Result<Vec<String>> {
-    let folder = root().join("crates").join(name).join("tests");
-    let Ok(entries) = std::fs::read_dir(&folder) else { return Ok(Vec::new()) };
-    let mut targets = Vec::new();
-    for entry in entries {
-        let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension == "rs")
-            && let Some(stem) = path.file_stem()
-        {
-            targets.push(stem.to_string_lossy().into_owned());
-        }
-    }
-    targets.sort();
-    Ok(targets)
-}
+/// Test targets with digests of whole runs; the first belongs to mm-sim, so that its command is built too.
+const GOLDEN: [&str; 3] = ["plant_variation", "scenarios", "replay"];
 
 fn deny() -> Result<End> {
     if !answers("cargo-deny", &["--version"]) {

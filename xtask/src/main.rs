@@ -41,7 +41,8 @@ cargo xtask <job>
                       [--target T: only the archive] [--full: all targets] [--fallback]
   qemu                runs the programs of firmware/ on emulated microcontrollers and compares every bit of the controller with this machine
                       [--full: all ticks] [--scenario NAME] [--fallback] [--json]
-  pil                 runs the controller on emulated microcontrollers in the loop [--build: only builds it] [--full] [--fallback] [--mmsim FILE]
+  pil                 runs the controller on emulated microcontrollers in the loop [--build: only builds it]
+                      [--short: a second on the Cortex-M4] [--full: all of square-compare there] [--fallback] [--mmsim FILE]
   size                instructions, flash, memory and stack of the controller on microcontrollers [--json] [--bless] [--fallback]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
@@ -132,11 +133,16 @@ fn run() -> Result<ExitCode> {
             qemu::run(&qemu::Options { full, fallback, json, scenario })?
         }
         "pil" => {
-            let options = pil::Options {
-                build: arguments.flag("--build"),
-                full: arguments.flag("--full"),
-                fallback: arguments.flag("--fallback"),
+            let scope = if arguments.flag("--build") {
+                pil::Scope::Build
+            } else if arguments.flag("--short") {
+                pil::Scope::Short
+            } else if arguments.flag("--full") {
+                pil::Scope::Full
+            } else {
+                pil::Scope::Usual
             };
+            let options = pil::Options { scope, fallback: arguments.flag("--fallback") };
             let command = arguments.value("--mmsim")?;
             arguments.finish()?;
             pil::run(&options, || mmsim::Mmsim::find(command, mmsim::Profile::Release))?

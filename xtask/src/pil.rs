@@ -30,6 +30,9 @@ const fn case(machine: (&'static str, &'static str), precision: &'static str, se
     Case { target: machine.0, compiler: machine.1, precision, seconds }
 }
 
+/// The Cortex-M4 in both precisions, for every change.
+const SHORT: [Case; 2] = [case(M4, "f32", 1.0), case(M4, "f64", 0.2)];
+
 /// The microbit has no room for double precision.
 const CASES: [Case; 6] = [
     case(M4, "f32", 2.0),
@@ -44,21 +47,37 @@ const CASES: [Case; 6] = [
 const BUILDS: [(&[&str], &[&str]); 2] =
     [(&[], &[M4.1, M3.1, RISC_V.1]), (&["--no-default-features"], &[M0.1])];
 
+/// How much is compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Scope {
+    /// Nothing: the firmware is built.
+    Build,
+    /// A second on the Cortex-M4, with a program that is quickly linked.
+    Short,
+    /// Some time on every machine.
+    Usual,
+    /// The whole scenario on the Cortex-M4, in both precisions.
+    Full,
+}
+
 /// What the job is asked for.
 pub(crate) struct Options {
-    /// Builds the firmware and stops there.
-    pub(crate) build: bool,
-    /// Compares the whole scenario on the Cortex-M4, in both precisions.
-    pub(crate) full: bool,
+    /// How much is compared.
+    pub(crate) scope: Scope,
     /// Builds with Debian's compiler.
     pub(crate) fallback: bool,
 }
 
 /// Builds and compares; fails where a tick differs.
 pub(crate) fn run(options: &Options, mmsim: impl FnOnce() -> Result<Mmsim>) -> Result<ExitCode> {
-    let programs = build(options.fallback)?;
-    if options.build {
-        return Ok(ExitCode::SUCCESS);
+    Ok(if check(options, mmsim)? { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Builds and compares; whether every tick is equal.
+pub(crate) fn check(options: &Options, mmsim: impl FnOnce() -> Result<Mmsim>) -> Result<bool> {
+    let programs = build(options)?;
+    if options.scope == Scope::Build {
+        return Ok(true);
     }
     for (program, package) in
         [("qemu-system-arm", "qemu-system-arm"), ("qemu-system-riscv32", "qemu-system-misc")]
@@ -80,15 +99,13 @@ pub(crate) fn run(options: &Options, mmsim: impl FnOnce() -> Result<Mmsim>) -> R
         "",
     ]);
     let mut well = true;
-    for Case { target, compiler, precision, seconds } in &CASES {
-        if options.full && *target != M4.0 {
-            continue;
-        }
-        let program = programs.join(compiler).join("release/pil").display().to_string();
+    let cases = if options.scope == Scope::Usual { CASES.as_slice() } else { SHORT.as_slice() };
+    for Case { target, compiler, precision, seconds } in cases {
+        let program = programs.join(compiler).join(options.profile()).join("pil").display().to_string();
         let mut arguments = vec!["pil", "--scenario", "square-compare", "--no-log", "--json"];
         arguments.extend(["--target", target, "--precision", precision, "--firmware", &program]);
         let seconds = format!("{seconds}");
-        if !options.full {
+        if options.scope != Scope::Full {
             arguments.extend(["--seconds", &seconds]);
         }
         let Output { status, stdout, stderr } = mmsim.output(&arguments)?;
@@ -101,20 +118,32 @@ pub(crate) fn run(options: &Options, mmsim: impl FnOnce() -> Result<Mmsim>) -> R
         }
     }
     table.print();
-    Ok(if well { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    Ok(well)
 }
 
-/// Builds the program for all machines, and says in which folder.
-fn build(fallback: bool) -> Result<PathBuf> {
+impl Options {
+    fn profile(&self) -> &'static str {
+        if self.scope == Scope::Short { "quick" } else { "release" }
+    }
+}
+
+/// Builds the program for all machines that take part, and says in which folder.
+fn build(options: &Options) -> Result<PathBuf> {
+    let only_m4: [(&[&str], &[&str]); 1] = [(&[], &[M4.1])];
+    let builds = match options.scope {
+        Scope::Build | Scope::Usual => BUILDS.as_slice(),
+        Scope::Short | Scope::Full => only_m4.as_slice(),
+    };
     let mut folder = PathBuf::new();
-    for (features, targets) in BUILDS {
-        let mut compiler = Compiler::find(fallback)?;
+    for (features, targets) in builds {
+        let mut compiler = Compiler::find(options.fallback)?;
         compiler.cargo.current_dir(root().join("firmware"));
         folder = compiler.directory.join("firmware");
         compiler.cargo.env("CARGO_TARGET_DIR", &folder);
         // By its package: the features of the other programs are none of its own.
-        compiler.cargo.args(["--release", "--locked", "--package", "pil"]).args(features);
-        for target in targets {
+        compiler.cargo.args(["--profile", options.profile(), "--locked", "--package", "pil"]);
+        compiler.cargo.args(*features);
+        for target in *targets {
             compiler.cargo.args(["--target", target]);
         }
         run_command(&mut compiler.cargo)?;

@@ -5,7 +5,7 @@
 //! Why: people and programs rely on them.
 //! Reference: the interface, whose keys are written out here; the `mcap` crate reads the logs. No tolerance: names and bits.
 
-#![expect(clippy::expect_used, clippy::panic, reason = "a helper that cannot go on is a failed test")]
+#![expect(clippy::panic, reason = "a helper that cannot go on is a failed test")]
 
 use crate::common::command::{Folder, complete_log};
 use serde_json::Value;

@@ -5,7 +5,7 @@
 //! Why: scripts branch on the code, people want to look into the run that failed.
 //! Reference: the interface; the `mcap` crate reads the logs. No tolerance.
 
-#![expect(clippy::expect_used, clippy::panic, reason = "a helper that cannot go on is a failed test")]
+#![expect(clippy::panic, reason = "a helper that cannot go on is a failed test")]
 
 use crate::common::command::{Folder, complete_log, ended};
 use serde_json::Value;

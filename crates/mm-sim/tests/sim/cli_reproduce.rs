@@ -4,8 +4,6 @@
 //! files.
 //! Why: people and programs rely on it. Reference: the interface, whose names are written out here. No tolerance.
 
-#![expect(clippy::expect_used, clippy::panic, reason = "a helper that cannot go on is a failed test")]
-
 use crate::common::command::{Folder, ended};
 use serde_json::Value;
 

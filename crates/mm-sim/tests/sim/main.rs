@@ -1,5 +1,6 @@
 //! Integration tests of the simulator and its command: one program, so that the dependencies are linked and the generic code compiled once.
 
+#[expect(clippy::expect_used, clippy::panic, reason = "helpers of tests fail as tests do")]
 mod common {
     pub(crate) mod command;
 }

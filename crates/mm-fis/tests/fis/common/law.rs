@@ -1,4 +1,5 @@
 //! What has to hold for any text at all: the fuzz targets and the replay of the corpus share it.
+#![expect(clippy::panic, reason = "a helper of tests reports like a test")]
 
 use mm_control::fuzzy::{FuzzyError, Sampling};
 use mm_fis::{Accuracy, Document, Engine, Kind, Problem, ReadError, System, read_fis, write_fis};
