@@ -44,6 +44,7 @@ cargo xtask <job>
   pil                 runs the controller on emulated microcontrollers in the loop [--build: only builds it]
                       [--short: a second on the Cortex-M4] [--full: all of square-compare there] [--fallback] [--mmsim FILE]
   size                instructions, flash, memory and stack of the controller on microcontrollers [--json] [--bless] [--fallback]
+                      [--fixed: fixed point beside single precision, on processors without floating point]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -150,6 +151,7 @@ fn run() -> Result<ExitCode> {
         "size" => {
             let options = size::Options {
                 json: arguments.flag("--json"),
+                fixed: arguments.flag("--fixed"),
                 bless: arguments.flag("--bless"),
                 fallback: arguments.flag("--fallback"),
             };

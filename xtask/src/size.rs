@@ -5,6 +5,7 @@
 //! by more than 2 % fails with the difference, either way, and so does one beyond its limit.
 
 mod budget;
+mod fixed;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,6 +28,8 @@ use crate::targets::Compiler;
 pub(crate) struct Options {
     /// JSON instead of a table.
     pub(crate) json: bool,
+    /// Fixed point beside single precision.
+    pub(crate) fixed: bool,
     /// Keep what is measured.
     pub(crate) bless: bool,
     /// Debian's compiler.
@@ -51,8 +54,11 @@ const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Measures, shows and compares.
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
+    if options.fixed {
+        return fixed::run(options.fallback);
+    }
     machine::install_emulators(&MACHINES)?;
-    let directory = build(options.fallback)?;
+    let directory = build(options.fallback, &MACHINES, &["control-tick", "count-control"])?;
     let here = bench_targets::counts(&bench_targets::on_host()?)?;
     let numbers = parallel::map(&MACHINES, |machine| measured(&directory, machine, &here));
     let mut all = BTreeMap::new();
@@ -78,13 +84,16 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     Ok(if problems.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Builds the two programs for all machines; gives the directory.
-fn build(fallback: bool) -> Result<PathBuf> {
+/// Builds programs for machines; gives the directory.
+fn build(fallback: bool, machines: &[Machine], programs: &[&str]) -> Result<PathBuf> {
     let mut compiler = Compiler::find(fallback)?;
     let directory = compiler.directory.join("firmware");
     compiler.cargo.current_dir(root().join("firmware")).env("CARGO_TARGET_DIR", &directory);
-    compiler.cargo.args(["--quiet", "--locked", "--release", "--bin=control-tick", "--bin=count-control"]);
-    for machine in &MACHINES {
+    compiler.cargo.args(["--quiet", "--locked", "--release"]);
+    for program in programs {
+        compiler.cargo.args(["--bin", program]);
+    }
+    for machine in machines {
         compiler.cargo.args(["--target", machine.target]);
     }
     run_command(&mut compiler.cargo)?;

@@ -25,7 +25,7 @@ fn main() -> ExitCode {
         eprintln!("{error}");
         return ExitCode::FAILURE;
     }
-    if let Err(error) = count::control(&counter, &mut NoDepth, &mut lines) {
+    if let Err(error) = count::control::<f32, _>(&counter, &mut NoDepth, &mut lines) {
         eprintln!("{error}");
         return ExitCode::FAILURE;
     }

@@ -16,7 +16,7 @@ mod motions;
 #[cfg(target_os = "none")]
 mod on_board;
 
-pub use control::run as control;
+pub use control::{Counted, run as control};
 pub use fuzzy::run;
 pub use measure::{Clock, Count, Counter, Depth, Miscounted, NoDepth};
 #[cfg(target_os = "none")]

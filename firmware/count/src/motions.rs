@@ -10,6 +10,9 @@ pub(crate) const UPDATES: u16 = 100;
 /// Time between two updates, s.
 pub(crate) const PERIOD: f32 = 1e-3;
 
+/// The timing and the input of an update.
+pub(crate) type Arrived<T> = (Timing<T>, Input<T, 3>);
+
 /// A motion: x, y, heading and the joints each at a place, with a speed and an oscillation of 8 rad/s about it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Motion {
@@ -106,7 +109,7 @@ pub(crate) const MOTIONS: [Motion; 7] = [
 
 impl Motion {
     /// What arrives at an update: the timing and the input. `tip` is the tip in the middle of the motion.
-    pub(crate) fn at(&self, update: u16, tip: &Vector3<f32>) -> (Timing<f32>, Input<f32, 3>) {
+    pub(crate) fn at(&self, update: u16, tip: &Vector3<f32>) -> Arrived<f32> {
         let t = f32::from(update) * PERIOD;
         let (sine, cosine) = (8.0 * t).sin_cos_of();
         let angle = |middle: f32, part: f32| middle + part * self.swing * sine;
@@ -141,7 +144,7 @@ impl Motion {
 }
 
 /// Makes what arrives implausible, each time in another way; now and then three times in a row, so that the robot is stopped.
-fn spoil((timing, input): &mut (Timing<f32>, Input<f32, 3>), turn: u16) {
+fn spoil((timing, input): &mut Arrived<f32>, turn: u16) {
     match turn % 5 {
         0 => input.q.x = f32::NAN,
         1 => input.nu.joints = [40.0; 3],

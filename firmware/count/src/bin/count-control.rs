@@ -8,7 +8,7 @@ board::program!(run);
 
 fn run(board: &mut board::Board) -> bool {
     let Some((counter, mut depth, out)) = count::calibrated(board) else { return false };
-    match count::control(&counter, &mut depth, out) {
+    match count::control::<f32, _>(&counter, &mut depth, out) {
         Ok(()) => true,
         Err(error) => {
             let _ = writeln!(out, "setup: {error}");
