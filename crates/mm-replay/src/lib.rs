@@ -24,7 +24,7 @@
 //! | 4 | ticks |
 //! | | name, in ASCII |
 //! | | setup, as postcard writes it |
-//! | per tick | number of the tick, 4 bytes; what enters, [`Seen`], and the reference, 9 numbers; what came out, [`SIGNALS`](mm_link::signals::SIGNALS); outcomes, 4 bytes |
+//! | per tick | number of the tick, 4 bytes; what enters, [`Seen`], and the reference, 9 numbers; what came out, [`SIGNALS`]; outcomes, 4 bytes |
 #![cfg_attr(not(test), no_std)]
 #![deny(
     clippy::indexing_slicing,

@@ -27,7 +27,8 @@ pub(crate) fn record(name: &str, ticks: Option<u32>, paths: &[PathBuf; 2]) -> Re
     let mut tap = Tap {
         choice,
         tick: 0,
-        is_whole: true,
+        // With faults or a supervisor the loop may see other inputs than the true state, and use other torques.
+        is_whole: simulation.guard.is_none(),
         sensors: sensors.map(|hardware| Running::new(hardware, robot, &simulation.initial)),
         single: Track::new(name, super::setup::rounded(&setup)?, single)?,
         double: Track::new(name, setup, double)?,
