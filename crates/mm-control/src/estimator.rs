@@ -88,9 +88,19 @@ enum Kind<T> {
 
 /// What the estimator remembers: nothing before the first measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub(crate) struct Memory<T, const N: usize>(Option<Seen<T, N>>);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 struct Seen<T, const N: usize> {
     last: Measurement<T, N>,
     /// Estimated configuration at the last measurement.
@@ -99,6 +109,11 @@ struct Seen<T, const N: usize> {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 enum Channels<T, const N: usize> {
     Difference(DifferenceState<T, N>),
     Observer(TrackingState<T, N>),

@@ -4,6 +4,11 @@ use mm_model::{Force, Real};
 
 /// State of a [`MomentumObserver`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub(crate) struct ObserverState<T, const N: usize> {
     /// Momentum that the nominal model accounts for, kg m/s and kg m^2/s; none before the first update.
     explained: Option<Force<T, N>>,

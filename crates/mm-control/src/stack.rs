@@ -14,6 +14,11 @@ use crate::{ControlError, Input, Output, Reference, SetupError, Signals, Status}
 
 /// What the stack remembers between updates.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct ControlState<T, const N: usize> {
     /// integral(nu - nu_c).
     integral: Velocity<T, N>,

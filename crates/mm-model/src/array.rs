@@ -1,4 +1,4 @@
-//! Arrays of N elements for serde, which knows those of fixed lengths only: a tuple of N.
+//! Arrays of N elements for serde, which knows those of fixed lengths only: a tuple of N, by `#[serde(with = "mm_model::array")]`.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -7,7 +7,10 @@ use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
 /// Writes the elements in order.
-pub(crate) fn serialize<S: Serializer, E: Serialize, const N: usize>(
+///
+/// # Errors
+/// Those of the serializer.
+pub fn serialize<S: Serializer, E: Serialize, const N: usize>(
     array: &[E; N],
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
@@ -19,7 +22,10 @@ pub(crate) fn serialize<S: Serializer, E: Serialize, const N: usize>(
 }
 
 /// Reads exactly N elements.
-pub(crate) fn deserialize<'de, D: Deserializer<'de>, E: Copy + Deserialize<'de>, const N: usize>(
+///
+/// # Errors
+/// Another number of elements, or those of the deserializer.
+pub fn deserialize<'de, D: Deserializer<'de>, E: Copy + Deserialize<'de>, const N: usize>(
     deserializer: D,
 ) -> Result<[E; N], D::Error> {
     deserializer.deserialize_tuple(N, Elements(PhantomData))

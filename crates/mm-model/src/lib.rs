@@ -43,7 +43,7 @@
 mod angle;
 mod arm;
 #[cfg(feature = "serde")]
-mod array;
+pub mod array;
 mod base_only;
 mod blocks;
 mod bodies;

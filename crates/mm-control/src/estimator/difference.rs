@@ -26,6 +26,11 @@ pub(super) struct DifferenceFilter<T> {
 
 /// The last two velocities.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub(super) struct DifferenceState<T, const N: usize> {
     pub(super) velocity: Velocity<T, N>,
     before: Velocity<T, N>,

@@ -39,6 +39,11 @@ pub(super) struct TrackingObserver<T> {
 
 /// What the observer knows of each channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub(super) struct TrackingState<T, const N: usize> {
     /// Measured less estimated position, m and rad.
     pub(super) lag: Velocity<T, N>,

@@ -82,6 +82,11 @@ pub struct Drive<T, const N: usize> {
 
 /// What a law remembers between updates.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub enum LawMemory<T, const N: usize> {
     /// Nothing yet.
     None,
@@ -94,6 +99,7 @@ pub enum LawMemory<T, const N: usize> {
         /// Factor on the base.
         base: T,
         /// Factors on the links.
+        #[cfg_attr(feature = "serde", serde(with = "mm_model::array"))]
         links: [T; N],
         /// d_hat.
         force: Force<T, N>,
