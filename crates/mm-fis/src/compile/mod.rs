@@ -19,6 +19,7 @@ mod row;
 mod steps;
 mod surface1;
 mod surface2;
+mod table;
 mod text;
 
 pub use error::CompileError;
@@ -29,6 +30,7 @@ pub use row::Shape as SlotShape;
 pub use steps::value_of;
 pub use surface1::CompiledSurface;
 pub use surface2::CompiledSurface2;
+pub use table::{Language, Table, TableError, quantized};
 pub use text::Origin;
 
 fn unsupported(part: impl Into<String>, reason: &'static str) -> CompileError {

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use mm_fis::System;
-use mm_fis::compile::{CompiledSurface, CompiledSurface2, Origin, Q15, Request};
+use mm_fis::compile::{self, CompiledSurface, CompiledSurface2, Origin, Q15, Request, Table};
 
 use super::super::{Exit, complain, print};
-use super::engines::{self, Evaluator, Fixed, Table, TableArgs};
+use super::engines::{self, Evaluator, Fixed, TableArgs};
 use super::file::{self, Loaded, STDIN};
 use super::{FileArg, counted};
 use crate::{shell, whole};
@@ -88,7 +88,7 @@ fn compiled(args: &CompileArgs) -> Result<Exit, Exit> {
         Fixed::Surface => {
             let output = which(args, system)?;
             let table =
-                Table::compile(system, output, &args.table.request()).map_err(|error| named(&error))?;
+                engines::table(system, output, &args.table.request()).map_err(|error| named(&error))?;
             let report = report_of_table(system, output, &table, args.table.bound.is_some());
             (Compiled::Table(table), report)
         }
@@ -182,12 +182,14 @@ fn text(
         (Compiled::Rules(_), Language::C) => {
             return Err(refuse(&"the Q15 engine is written as Rust or TOML; for C, compile a surface"));
         }
-        (Compiled::Table(Table::One(table)), Language::Rust) => table.to_rust(&origin, ROOT),
-        (Compiled::Table(Table::One(table)), Language::C) => table.to_c(&origin),
-        (Compiled::Table(Table::One(table)), Language::Toml) => table.to_toml(&origin),
-        (Compiled::Table(Table::Two(table)), Language::Rust) => table.to_rust(&origin, ROOT),
-        (Compiled::Table(Table::Two(table)), Language::C) => table.to_c(&origin),
-        (Compiled::Table(Table::Two(table)), Language::Toml) => table.to_toml(&origin),
+        (Compiled::Table(table), language) => {
+            let language = match language {
+                Language::Rust => compile::Language::Rust,
+                Language::C => compile::Language::C,
+                Language::Toml => compile::Language::Toml,
+            };
+            table.written(language, &origin)
+        }
     })
 }
 

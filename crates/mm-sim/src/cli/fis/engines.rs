@@ -1,16 +1,12 @@
 //! The engines that a system can be evaluated with: in floating point, in fixed point, and from a compiled table.
 
 use clap::{Args, ValueEnum};
-use mm_control::fuzzy::fixed::{self, Evaluate as _};
-use mm_control::fuzzy::{FuzzyError, Inference, Sampling};
-use mm_fis::compile::{CompileError, CompiledSurface, CompiledSurface2, Q15, Request};
-use mm_fis::{Accuracy, Engine, System};
+use mm_control::fuzzy::fixed;
+use mm_control::fuzzy::{FuzzyError, Inference};
+use mm_fis::compile::{CompileError, Q15, Request, Table, TableError, quantized, value_of};
+use mm_fis::{Engine, System};
 
 use super::super::complain;
-
-/// Samples of an output set where an exact centroid is not to be had: for a table of one input, and of two.
-const SAMPLES_OF_ONE: u32 = 2001;
-const SAMPLES_OF_TWO: u32 = 401;
 
 /// What a compiled table is to be.
 #[derive(Debug, Clone, Copy, Args)]
@@ -120,10 +116,16 @@ pub(super) fn float<'a>(engine: &'a Engine<'a>) -> impl FnMut(&[f64], &mut [f64]
     move |inputs, outputs| engine.infer(inputs, outputs, &mut workspace).unwrap_or_default()
 }
 
-/// How the outputs of a system are best known: exactly or, where the output sets are curved, by this many samples.
-pub(super) fn best(system: &System, samples: u32) -> Accuracy {
-    let is_curved = matches!(system.with_engine(Accuracy::Exact, |_| ()), Err(FuzzyError::Curved(_)));
-    if is_curved { Accuracy::Sampled(Sampling::Ends(samples)) } else { Accuracy::Exact }
+/// Compiles an output of a system; says what to ask for instead where that cannot be met.
+pub(super) fn table(system: &System, output: usize, request: &Request) -> Result<Table, EngineError> {
+    Table::compile(system, output, request).map_err(|error| match error {
+        TableError::System(error) => EngineError::System(error),
+        TableError::Inputs(count) => EngineError::Inputs(count),
+        TableError::Compile(error) => {
+            let hint = hint(&error, system.inputs.len(), request);
+            EngineError::Table(error, hint)
+        }
+    })
 }
 
 /// Hands an evaluator in fixed point to `work`; what it meets is what a floating-point engine meets.
@@ -137,24 +139,11 @@ pub(super) fn with_fixed<R>(
         Fixed::Q15 => with_q15(system, &Q15::compile(system)?, work),
         Fixed::Surface => {
             let tables = (0..system.outputs.len())
-                .map(|output| Table::compile(system, output, &table.request()))
+                .map(|output| self::table(system, output, &table.request()))
                 .collect::<Result<Vec<_>, _>>()?;
             with_tables(system, &tables, work)
         }
     }
-}
-
-/// The 16-bit number nearest to a value in a range.
-#[expect(clippy::cast_possible_truncation, reason = "clamped; not a number is caught before")]
-fn quantized((lo, hi): (f64, f64), x: f64) -> i16 {
-    let (middle, half) = (0.5 * lo + 0.5 * hi, 0.5 * hi - 0.5 * lo);
-    ((x - middle) / half * 32768.0).round().clamp(-32768.0, 32767.0) as i16
-}
-
-/// What a 16-bit number stands for in a range.
-fn value_of((lo, hi): (f64, f64), q: i16) -> f64 {
-    let (middle, half) = (0.5 * lo + 0.5 * hi, 0.5 * hi - 0.5 * lo);
-    middle + half * (f64::from(q) / 32768.0)
 }
 
 /// Evaluates in fixed point between what a floating-point engine says to the inputs.
@@ -164,7 +153,7 @@ fn with_float<R>(
     work: impl FnOnce(&mut Evaluator<'_>) -> R,
 ) -> Result<R, EngineError> {
     let ranges: Vec<(f64, f64)> = system.inputs.iter().map(|input| input.range).collect();
-    Ok(system.with_engine(best(system, 101), |engine| {
+    Ok(system.with_engine(system.best_accuracy(101), |engine| {
         let mut float = float(engine);
         work(&mut |inputs, outputs| {
             let met = float(inputs, outputs);
@@ -209,49 +198,4 @@ fn with_tables<R>(
         }
     };
     with_float(system, evaluate, work)
-}
-
-/// A compiled surface of one input or of two.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Table {
-    One(CompiledSurface),
-    Two(CompiledSurface2),
-}
-
-impl Table {
-    /// Compiles an output of a system.
-    pub(super) fn compile(system: &System, output: usize, request: &Request) -> Result<Self, EngineError> {
-        let range = system.outputs.get(output).ok_or(FuzzyError::OutOfRange("outputs"))?.range;
-        let name = &system.name;
-        let refused = |error| {
-            let hint = hint(&error, system.inputs.len(), request);
-            EngineError::Table(error, hint)
-        };
-        match system.inputs.as_slice() {
-            [input] => system.with_function(best(system, SAMPLES_OF_ONE), output, |f| {
-                let f = |x: f64| f(&[x]);
-                CompiledSurface::compile(name, &f, (input.range, range), request)
-                    .map(Self::One)
-                    .map_err(refused)
-            })?,
-            [first, second] => system.with_function(best(system, SAMPLES_OF_TWO), output, |f| {
-                let ranges = ([first.range, second.range], range);
-                CompiledSurface2::compile(name, f, ranges, request).map(Self::Two).map_err(refused)
-            })?,
-            inputs => Err(EngineError::Inputs(inputs.len())),
-        }
-    }
-
-    /// Whether the system had to be sampled for it.
-    pub(super) fn is_sampled(system: &System) -> bool {
-        best(system, SAMPLES_OF_ONE) != Accuracy::Exact
-    }
-
-    fn evaluate(&self, inputs: &[i16]) -> f64 {
-        match (self, inputs) {
-            (Self::One(table), [x]) => value_of(table.output_range, table.surface().evaluate(*x)),
-            (Self::Two(table), [x, y]) => value_of(table.output_range, table.surface().evaluate(*x, *y)),
-            _ => 0.0,
-        }
-    }
 }

@@ -333,5 +333,5 @@ fn maps(system: &System, (across, up): (usize, usize)) -> Result<Vec<Map>, Fuzzy
         }
         Ok(maps)
     };
-    system.with_engine(engines::best(system, SAMPLES), fill)?
+    system.with_engine(system.best_accuracy(SAMPLES), fill)?
 }
