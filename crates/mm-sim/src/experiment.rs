@@ -11,13 +11,15 @@ mod robot;
 mod trajectory;
 
 pub use link::setup;
-use mm_control::LawKind;
+use mm_control::{ControlStack, LawKind, SupervisedStack};
+use mm_model::Robot;
 use nalgebra::Vector3;
 
 use crate::imposed::Imposed;
 use crate::plant::Plant;
 use crate::scenario::{self, ControllerKind, Loaded, Motion, ScenarioError};
 use crate::simulation::{Clock, Recorder, RunResult, Simulation};
+use crate::trajectory::Trajectory;
 
 /// A scenario ready to run.
 #[derive(Debug, Clone)]
@@ -121,6 +123,42 @@ impl Experiment {
             Self::Open(imposed) => imposed.reference(t).position,
         }
     }
+}
+
+/// The robot that a scenario's `[robot]` describes, and that its controller knows.
+///
+/// # Errors
+/// Parameters that no robot has.
+pub fn robot(loaded: &Loaded) -> Result<Robot<f64, 3>, ScenarioError> {
+    robot::checked(loaded, robot::params(loaded)?)
+}
+
+/// The control stack of a scenario.
+///
+/// # Errors
+/// Parameters that no robot has, gains that do not work together.
+pub fn stack(loaded: &Loaded) -> Result<ControlStack<f64, 3>, ScenarioError> {
+    controller::stack(loaded, robot(loaded)?)
+}
+
+/// The control stack of a scenario under its supervisor, whether or not that is on in the scenario.
+///
+/// # Errors
+/// As [`stack`]; limits that do not work.
+pub fn supervised(loaded: &Loaded) -> Result<SupervisedStack<f64, 3>, ScenarioError> {
+    faults::supervised(loaded, &stack(loaded)?)
+}
+
+/// The motion of a scenario's reference, placed in the world.
+///
+/// # Errors
+/// A trajectory that cannot be; velocities that are imposed, which have none.
+pub fn reference(loaded: &Loaded) -> Result<Trajectory, ScenarioError> {
+    if matches!(loaded.file.trajectory.motion, Motion::Velocities { .. }) {
+        return Err(loaded.problem("trajectory.kind", "imposed velocities are no path", "a path of the tip"));
+    }
+    let (reference, _) = initial::with_trajectory(loaded, &robot(loaded)?, trajectory::path(loaded)?)?;
+    Ok(reference)
 }
 
 /// Plant steps beyond which a run would take years.

@@ -15,8 +15,10 @@ mod docs;
 mod fuzzy;
 mod gains;
 pub(crate) mod nearest;
+mod robot_toml;
 mod rules;
 mod schema;
+mod snapshot;
 mod tree;
 mod types;
 mod waypoints;
@@ -29,7 +31,9 @@ use tree::{Node, Table, Value};
 pub use bundled::bundled;
 pub use diagnostic::{Problem, ScenarioError};
 pub use docs::markdown;
+pub use robot_toml::robot_toml;
 pub use schema::schema;
+pub use snapshot::Snapshot;
 pub use types::{
     Actuators, AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget,
     Estimator, EstimatorKind, Expect, Fault, FaultKind, FaultTarget, Friction, FuzzyEngine, Gains, GainsFor,

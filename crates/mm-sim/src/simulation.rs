@@ -80,7 +80,7 @@ impl Simulation {
         self.run_with(recorder, &mut Own)
     }
 
-    /// Runs the closed loop with torques that somebody else computes.
+    /// Runs the closed loop with torques that somebody else computes, or with a plant that somebody else moves.
     ///
     /// # Errors
     /// Those of the recorder; the run ends there.
@@ -212,7 +212,14 @@ impl<'a> Run<'a> {
                 return Ok(Some(Ending::Stopped { t }));
             }
         }
-        self.advance(t, sines, &at_plant.torque);
+        if C::MOVES {
+            match controller.advance((t, clock.period), &self.state, &at_plant.torque) {
+                Ok(state) => self.state = state,
+                Err(ending) => return Ok(Some(ending)),
+            }
+        } else {
+            self.advance(t, sines, &at_plant.torque);
+        }
         Ok(None)
     }
 

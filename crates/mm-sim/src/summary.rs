@@ -1,11 +1,14 @@
 //! The summary of a run: the `--json` object, its warnings and the judgement of `[expect]`.
 
+use std::path::Path;
+
 use mm_control::supervisor::Findings;
 use serde::Serialize;
 
+use crate::experiment::{Experiment, controller_name};
 use crate::metrics::Metrics;
 use crate::monitors::{Lasting, MonitorReport};
-use crate::scenario::{Bounds, Expect};
+use crate::scenario::{Bounds, Expect, Loaded};
 use crate::simulation::{Ending, RunResult, SupervisorReport};
 
 /// The `--json` summary of one run.
@@ -51,6 +54,44 @@ pub struct Summary {
 pub const SCHEMA: &str = "mmsim.summary/1";
 
 impl Summary {
+    /// The summary of a run of a scenario that took `wall_s`.
+    #[must_use]
+    pub fn of(
+        (loaded, experiment): (&Loaded, &Experiment),
+        result: &RunResult,
+        wall_s: f64,
+        log: Option<&Path>,
+    ) -> Self {
+        let file = &loaded.file;
+        let simulated = result.simulated_s(experiment.clock());
+        let mut warnings = warnings(result, experiment.plant().robot().params().limits.speed);
+        warnings.extend(experiment.reference_warnings(simulated));
+        if loaded.is_modified() {
+            let missed = missed(&file.expect, &result.metrics);
+            warnings.extend(missed.into_iter().map(|miss| format!("[expect] missed: {miss}")));
+        }
+        warnings.extend(describe(&result.ending));
+        Self {
+            schema: SCHEMA,
+            scenario: loaded.name().to_owned(),
+            controller: controller_name(file.controller.kind),
+            duration_s: file.simulation.duration_s,
+            plant_step_s: file.simulation.plant_step_s,
+            control_period_s: file.simulation.control_period_s,
+            seed: file.simulation.seed,
+            ended: ended(&result.ending),
+            simulated_s: simulated,
+            metrics: result.metrics,
+            monitors: result.monitors,
+            supervisor: result.supervisor.clone(),
+            digest: result.digest.clone(),
+            real_time_factor: simulated / wall_s,
+            wall_s,
+            log: log.map(|path| path.display().to_string()),
+            warnings,
+        }
+    }
+
     /// The summary as one line of JSON.
     #[must_use]
     pub fn to_json(&self) -> String {

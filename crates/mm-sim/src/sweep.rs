@@ -9,7 +9,7 @@ mod report;
 mod statistics;
 mod store;
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use crate::experiment::Experiment;
 use crate::metrics::Metrics;
@@ -35,6 +35,28 @@ pub enum Ended {
     Refused,
     /// The supervisor gave the robot up.
     Faulted,
+}
+
+impl Ended {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Finished, Self::Diverged, Self::Refused, Self::Faulted];
+
+    /// The word for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::Diverged => "diverged",
+            Self::Refused => "refused",
+            Self::Faulted => "fault",
+        }
+    }
+
+    /// What a word stands for.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|ended| ended.name() == name)
+    }
 }
 
 /// What is kept of a sample.
@@ -116,6 +138,35 @@ fn run_sample(
     Ok(Some(Row { sample, seed, ended, simulated_s, values: values(&result.metrics), digest: result.digest }))
 }
 
+/// Runs samples and hands each, in their order, to `take`; the first error ends it.
+///
+/// `stop` is asked all the time.
+///
+/// # Errors
+/// A sample that is no scenario, a stop, those of `take`.
+pub fn samples(
+    loaded: &Loaded,
+    seed: u64,
+    numbers: Range<u64>,
+    (pool, stop): (&Pool, &(dyn Fn() -> bool + Sync)),
+    mut take: impl FnMut(Row) -> Result<(), SweepError>,
+) -> Result<(), SweepError> {
+    let (mut failed, end) = (Ok(()), numbers.end);
+    pool.in_order(
+        numbers,
+        |sample| run_sample(loaded, (seed, sample), stop),
+        |sample, outcome| {
+            failed = match outcome {
+                Ok(Some(row)) => take(row),
+                Ok(None) => Err(SweepError::Stopped { done: sample, samples: end }),
+                Err(source) => Err(SweepError::Scenario { sample, source: Box::new(source) }),
+            };
+            if failed.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        },
+    );
+    failed
+}
+
 /// Goes on with a sweep from where its file ends to `samples` samples, and returns the file's rows up to there.
 ///
 /// `stop` is asked all the time; `progress` hears of every sample that is in the file.
@@ -129,32 +180,10 @@ pub fn run(
     stop: &(dyn Fn() -> bool + Sync),
     mut progress: impl FnMut(&Row),
 ) -> Result<Vec<Row>, SweepError> {
-    let mut failed = None;
-    pool.in_order(
-        store.rows().len() as u64..samples,
-        |sample| run_sample(loaded, (seed, sample), stop),
-        |sample, outcome| {
-            let taken = match outcome {
-                Ok(Some(row)) => {
-                    progress(&row);
-                    store.append(row).map_err(SweepError::from)
-                }
-                Ok(None) => Err(SweepError::Stopped { done: sample, samples }),
-                Err(source) => Err(SweepError::Scenario { sample, source: Box::new(source) }),
-            };
-            match taken {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(error) => {
-                    failed = Some(error);
-                    ControlFlow::Break(())
-                }
-            }
-        },
-    );
-    match failed {
-        Some(error) => Err(error),
-        None => {
-            Ok(store.rows().iter().take(usize::try_from(samples).unwrap_or(usize::MAX)).cloned().collect())
-        }
-    }
+    let missing = store.rows().len() as u64..samples;
+    self::samples(loaded, seed, missing, (pool, stop), |row| {
+        progress(&row);
+        store.append(row).map_err(SweepError::from)
+    })?;
+    Ok(store.rows().iter().take(usize::try_from(samples).unwrap_or(usize::MAX)).cloned().collect())
 }

@@ -6,11 +6,11 @@ use std::time::Instant;
 
 use super::recorder::RunRecorder;
 use super::{Common, Exit, RunArgs, complain, print, table};
-use crate::experiment::{Experiment, controller_name};
+use crate::experiment::Experiment;
 use crate::log::{LogError, Outcome};
 use crate::scenario::{self, Loaded};
-use crate::simulation::{Ending, RunResult};
-use crate::summary::{self, SCHEMA, Summary};
+use crate::simulation::RunResult;
+use crate::summary::{self, Summary};
 
 /// Runs the scenario that the arguments name.
 pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
@@ -109,48 +109,17 @@ pub(super) fn execute_with(
         })?;
     }
     let mut recorder =
-        RunRecorder::open(loaded, experiment, log.clone(), show_progress).map_err(|error| fail(&error))?;
+        RunRecorder::open(loaded, experiment, log.as_deref(), show_progress).map_err(|error| fail(&error))?;
     let begin = Instant::now();
     let ran = run(&mut recorder);
     let wall_s = begin.elapsed().as_secs_f64();
     recorder.clear();
     let result = ran.map_err(|error| fail(&error))?;
 
-    let file = &loaded.file;
-    let simulated = result.simulated_s(experiment.clock());
-    let mut warnings = summary::warnings(&result, experiment.plant().robot().params().limits.speed);
-    warnings.extend(experiment.reference_warnings(simulated));
-    if loaded.is_modified() {
-        let missed = summary::missed(&file.expect, &result.metrics);
-        warnings.extend(missed.into_iter().map(|miss| format!("[expect] missed: {miss}")));
-    }
+    let summary = Summary::of((loaded, experiment), &result, wall_s, log.as_deref());
     let ended = summary::describe(&result.ending);
-    warnings.extend(ended.clone());
-    let summary = Summary {
-        schema: SCHEMA,
-        scenario: loaded.name().to_owned(),
-        controller: controller_name(file.controller.kind),
-        duration_s: file.simulation.duration_s,
-        plant_step_s: file.simulation.plant_step_s,
-        control_period_s: file.simulation.control_period_s,
-        seed: file.simulation.seed,
-        ended: summary::ended(&result.ending),
-        simulated_s: simulated,
-        metrics: result.metrics,
-        monitors: result.monitors,
-        supervisor: result.supervisor,
-        digest: result.digest,
-        real_time_factor: simulated / wall_s,
-        wall_s,
-        log: log.map(|path| path.display().to_string()),
-        warnings,
-    };
-    let (outcome, exit) = match result.ending {
-        Ending::Finished => (Outcome::Finished, Exit::Done),
-        Ending::Stopped { .. } => (Outcome::Interrupted, Exit::Failed),
-        Ending::Faulted { .. } => (Outcome::Faulted, Exit::Failed),
-        Ending::Diverged { .. } | Ending::Refused { .. } => (Outcome::Diverged, Exit::Failed),
-    };
+    let outcome = Outcome::from(&result.ending);
+    let exit = if outcome == Outcome::Finished { Exit::Done } else { Exit::Failed };
     recorder.finish(outcome, &summary.to_json(), &summary.digest).map_err(|error| fail(&error))?;
     if let Some(text) = ended {
         complain(&format_args!("error: {}: {text}", loaded.source_name()));

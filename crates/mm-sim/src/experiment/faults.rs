@@ -28,7 +28,7 @@ pub(super) fn guard(
     Ok((supervisor.is_some() || !faults.is_empty()).then(|| Box::new(Guard { supervisor, faults })))
 }
 
-fn supervised(
+pub(super) fn supervised(
     loaded: &Loaded,
     stack: &ControlStack<f64, 3>,
 ) -> Result<SupervisedStack<f64, 3>, ScenarioError> {

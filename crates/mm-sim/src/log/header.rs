@@ -1,6 +1,7 @@
 //! What a log says about its run: how it started and how it ended.
 
 use super::urdf::RobotShape;
+use crate::simulation::Ending;
 use mcap::records::Metadata;
 
 /// What a log says about its run before the first sample.
@@ -36,6 +37,17 @@ pub enum Outcome {
     Faulted,
     /// It was asked to stop.
     Interrupted,
+}
+
+impl From<&Ending> for Outcome {
+    fn from(ending: &Ending) -> Self {
+        match ending {
+            Ending::Finished => Self::Finished,
+            Ending::Stopped { .. } => Self::Interrupted,
+            Ending::Faulted { .. } => Self::Faulted,
+            Ending::Diverged { .. } | Ending::Refused { .. } => Self::Diverged,
+        }
+    }
 }
 
 impl Outcome {

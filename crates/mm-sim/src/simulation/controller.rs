@@ -1,8 +1,10 @@
-//! Who computes the torque of a tick.
+//! Who computes the torque of a tick, and who moves the robot under it.
 
 use mm_control::{Input, Measurement, Output};
+use mm_model::Torque;
 
 use super::Ending;
+use crate::plant::PlantState;
 
 /// Computes torques, perhaps in the stack's place.
 pub trait Controller {
@@ -19,6 +21,23 @@ pub trait Controller {
         input: &Input<f64, 3>,
         measured: Option<Measurement<f64, 3>>,
     ) -> Result<Output<f64, 3>, Ending>;
+
+    /// Whether it moves the robot too; otherwise the simulation asks its own plant.
+    const MOVES: bool = false;
+
+    /// The state after a control period of `period` s from time `t` on, under a torque.
+    ///
+    /// # Errors
+    /// How the run ends, where there is no state.
+    fn advance(
+        &mut self,
+        (t, _period): (f64, f64),
+        _state: &PlantState,
+        _torque: &Torque<f64, 3>,
+    ) -> Result<PlantState, Ending> {
+        // Never asked.
+        Err(Ending::Stopped { t })
+    }
 }
 
 /// The simulation's own stack.

@@ -189,12 +189,7 @@ fn belongs(row: &Row, sample: u64, seed: u64) -> bool {
 }
 
 fn line(row: &Row) -> String {
-    let ended = match row.ended {
-        Ended::Finished => "finished",
-        Ended::Diverged => "diverged",
-        Ended::Refused => "refused",
-        Ended::Faulted => "fault",
-    };
+    let ended = row.ended.name();
     let values = row.values.map(|value| format!("{value:?}")).join(",");
     format!("{},{},{ended},{:?},{values},{}\n", row.sample, row.seed, row.simulated_s, row.digest)
 }
@@ -203,13 +198,7 @@ fn read_line(text: &str) -> Option<Row> {
     let mut cells = text.split(',');
     let sample = cells.next()?.parse().ok()?;
     let seed = cells.next()?.parse().ok()?;
-    let ended = match cells.next()? {
-        "finished" => Ended::Finished,
-        "diverged" => Ended::Diverged,
-        "refused" => Ended::Refused,
-        "fault" => Ended::Faulted,
-        _ => return None,
-    };
+    let ended = Ended::from_name(cells.next()?)?;
     let simulated_s = cells.next()?.parse().ok()?;
     let mut values = [0.0; QUANTITIES.len()];
     for value in &mut values {
