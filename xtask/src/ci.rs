@@ -7,7 +7,7 @@ use anyhow::{Result, ensure};
 
 use crate::mmsim::{Mmsim, Profile};
 use crate::shell::{answers, cargo, run as run_command, watch};
-use crate::{bench_targets, capi, fuzzy_peers, pil, qemu, scenarios, size};
+use crate::{bench_targets, capi, fuzzy_peers, pil, qemu, scenarios, size, wheel};
 
 /// How a step ended, unless it failed.
 enum End {
@@ -36,8 +36,9 @@ const STEPS: [Step; 13] = [
         run_command(cargo.env("RUSTDOCFLAGS", "-D warnings"))?;
         Ok(End::Done)
     }),
-    ("tests, dev profile", |tests| test(tests, &["--workspace"])),
-    ("tests of the release code", release_tests),
+    // Release code, since that is what people run, with overflow checked. That plain release code computes the same bits is seen on
+    // microcontrollers, where nothing else is run.
+    ("tests", |tests| test(tests, &["--workspace", "--profile=testrelease"])),
     ("fuzzy engines from PyPI", |tests| {
         fuzzy_peers::check(|line| tests.add_python(line))?;
         Ok(End::Done)
@@ -57,6 +58,11 @@ const STEPS: [Step; 13] = [
     ("microcontrollers: processor in the loop", |_| {
         let options = pil::Options { scope: pil::Scope::Short, fallback: false };
         well(pil::run(&options, || Mmsim::find(None, Profile::TestRelease))?)
+    }),
+    ("Python package", |tests| {
+        let options = wheel::Options { test: true, quick: true };
+        wheel::check(options, |line| tests.add_python(line))?;
+        Ok(End::Done)
     }),
     ("licences and sources of dependencies", |_| deny()),
 ];
@@ -115,20 +121,6 @@ fn test(tests: &mut Tests, selection: &[&str]) -> Result<End> {
     watch(cargo.args(selection), |line| tests.add(line))?;
     Ok(End::Done)
 }
-
-/// What other optimizations could change, in the profile `testrelease`: golden digests of whole runs, recordings computed again, every number of
-/// single precision.
-///
-/// The rest is the same code over them and was tested in the dev profile; microcontrollers run release code and have to agree with it.
-fn release_tests(tests: &mut Tests) -> Result<End> {
-    let golden = GOLDEN.map(|target| ["--test", target]).concat();
-    test(tests, &[&["--workspace", "--profile=testrelease"], golden.as_slice()].concat())?;
-    // Every number of single precision, one by one: among the unit tests.
-    test(tests, &["-p", "mm-model", "--features", "std", "--lib", "--profile", "testrelease"])
-}
-
-/// Test targets with digests of whole runs; the first belongs to mm-sim, so that its command is built too.
-const GOLDEN: [&str; 3] = ["plant_variation", "scenarios", "replay"];
 
 fn deny() -> Result<End> {
     if !answers("cargo-deny", &["--version"]) {

@@ -13,6 +13,7 @@ mod grid;
 mod mmsim;
 mod parallel;
 mod pil;
+mod python;
 mod qemu;
 mod real_time;
 mod scenarios;
@@ -20,6 +21,7 @@ mod shell;
 mod size;
 mod table;
 mod targets;
+mod wheel;
 
 use std::process::ExitCode;
 
@@ -45,6 +47,8 @@ cargo xtask <job>
                       [--short: a second on the Cortex-M4] [--full: all of square-compare there] [--fallback] [--mmsim FILE]
   size                instructions, flash, memory and stack of the controller on microcontrollers [--json] [--bless] [--fallback]
                       [--fixed: fixed point beside single precision, on processors without floating point]
+  wheel               the Python package: wheel and sdist into target/wheels, installed alone and tried
+                      [--test: its tests, with packages from PyPI] [--quick: a wheel that is quickly linked, for its tests]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -157,6 +161,11 @@ fn run() -> Result<ExitCode> {
             };
             arguments.finish()?;
             size::run(&options)?
+        }
+        "wheel" => {
+            let options = wheel::Options { test: arguments.flag("--test"), quick: arguments.flag("--quick") };
+            arguments.finish()?;
+            wheel::run(options)?
         }
         "real-time" => {
             let runs = arguments.value("--runs")?;

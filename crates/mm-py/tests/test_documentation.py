@@ -1,0 +1,38 @@
+"""Every example in the documentation of the module is run."""
+
+import doctest
+import inspect
+
+import pytest
+
+import mmsim
+from mmsim import _batch, _run
+
+#: Functions and classes, whose methods have examples too.
+NAMES = [name for name in mmsim.__all__ if inspect.isclass(getattr(mmsim, name))]
+
+
+def examples():
+    finder = doctest.DocTestFinder(exclude_empty=True)
+    for module in (mmsim, _run, _batch):
+        yield from (test for test in finder.find(module) if test.examples and test.name == module.__name__)
+    for function in (mmsim.compare, mmsim.scenarios, mmsim.simulate, mmsim.sweep, mmsim.tune):
+        yield from finder.find(function)
+    for name in NAMES:
+        kind = getattr(mmsim, name)
+        for label, item in [(name, kind), *((f"{name}.{key}", value) for key, value in vars(kind).items())]:
+            text = getattr(item, "__doc__", None)
+            if text and ">>>" in text:
+                yield doctest.DocTestParser().get_doctest(text, {}, label, None, None)
+
+
+@pytest.mark.parametrize("test", list(examples()), ids=lambda test: test.name)
+def test_example(test):
+    result = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(test)
+    assert result.attempted
+    assert not result.failed
+
+
+@pytest.mark.parametrize("name", mmsim.__all__)
+def test_everything_is_documented(name):
+    assert name.startswith("__") or inspect.getdoc(getattr(mmsim, name))

@@ -1,0 +1,92 @@
+//! The Python package: wheel and source distribution, and its tests in an environment of their own.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, ensure};
+
+use crate::python::{create, environment, pip};
+use crate::shell::{command, output, relative, root, run as run_command, target_directory, watch};
+
+/// What the job was asked for.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Options {
+    /// Runs the tests with the wheel.
+    pub(crate) test: bool,
+    /// A wheel that is quickly linked, and no source distribution.
+    pub(crate) quick: bool,
+}
+
+/// Folder of the tests, with the list of what they take.
+const TESTS: &str = "crates/mm-py/tests";
+
+/// Makes the wheel, and what else is asked for.
+pub(crate) fn run(options: Options) -> Result<ExitCode> {
+    check(options, |_| ())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The same; `see` gets each line that the tests print.
+pub(crate) fn check(options: Options, see: impl FnMut(&str)) -> Result<()> {
+    let target = target_directory()?;
+    let python = environment(&target.join("python"), &root().join(TESTS).join("requirements.txt"))?;
+    let wheels = target.join("wheels");
+    if wheels.exists() {
+        std::fs::remove_dir_all(&wheels)?;
+    }
+    let mut maturin = command(python.with_file_name("maturin"));
+    maturin.args(["build", "--quiet", "--locked", "--profile"]);
+    maturin.arg(if options.quick { "testrelease" } else { "release" }).arg("--out").arg(&wheels);
+    if !options.quick {
+        maturin.arg("--sdist");
+    }
+    run_command(&mut maturin)?;
+    for file in std::fs::read_dir(&wheels)? {
+        let file = file?;
+        println!("{}: {} bytes", relative(&file.path()), file.metadata()?.len());
+    }
+    let wheel = only(&wheels, "whl")?;
+    fresh(&target.join("wheel-alone"), &wheel)?;
+    if options.test {
+        let mut install = pip(&python);
+        run_command(install.args(["--no-deps", "--force-reinstall"]).arg(&wheel))?;
+        let mut tests = command(&python);
+        tests.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", TESTS]);
+        watch(tests.env("PYTHONDONTWRITEBYTECODE", "1"), see)?;
+        let mut mypy = command(&python);
+        mypy.args(["-m", "mypy", "--strict", "--cache-dir", "/dev/null", "crates/mm-py/python/mmsim"]);
+        run_command(&mut mypy)?;
+    }
+    Ok(())
+}
+
+/// The wheel in an environment with nothing but what it asks for: the command runs, and the example of its README.
+fn fresh(directory: &Path, wheel: &Path) -> Result<()> {
+    let python = create(directory)?;
+    run_command(pip(&python).arg(wheel))?;
+    let packages = output(command(&python).args(["-m", "pip", "list", "--format=freeze"]))?;
+    let others: Vec<&str> = packages
+        .lines()
+        .filter_map(|line| line.split("==").next())
+        .filter(|name| !["pip", "setuptools", "numpy", "mmsim"].contains(name))
+        .collect();
+    ensure!(others.is_empty(), "the wheel brings {}", others.join(", "));
+    let mut mmsim = command(python.with_file_name("mmsim"));
+    mmsim.args(["--scenario", "square.toml", "--set", "simulation.duration_s=2.0", "--no-log"]);
+    println!("{}", output(&mut mmsim)?);
+    let readme = std::fs::read_to_string(root().join("crates/mm-py/README.md"))?;
+    let example = readme.split("```").nth(1).and_then(|block| block.strip_prefix("python\n"));
+    let example = example.context("no example in the README")?;
+    println!("{}", output(command(&python).args(["-c", example]))?);
+    Ok(())
+}
+
+/// The only file with an ending.
+fn only(folder: &Path, ending: &str) -> Result<PathBuf> {
+    let files = std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
+    let files = files.collect::<std::io::Result<Vec<_>>>()?;
+    let mut found = files.into_iter().filter(|path| path.extension().is_some_and(|other| other == ending));
+    let first = found.next().with_context(|| format!("no .{ending} in {}", folder.display()))?;
+    ensure!(found.next().is_none(), "several .{ending} in {}", folder.display());
+    Ok(first)
+}
