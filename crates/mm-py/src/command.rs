@@ -2,9 +2,6 @@
 
 use pyo3::prelude::*;
 
-/// main(arguments)
-/// --
-///
 /// Runs the command with arguments, the first being its name; the exit code.
 #[pyfunction]
 pub(crate) fn main(py: Python<'_>, arguments: Vec<String>) -> u8 {

@@ -16,9 +16,6 @@ use crate::{errors, json};
 /// Bytes of a state that are enough for any law.
 const MOST_BYTES: usize = 8192;
 
-/// Controller(robot, kind="bfsmc", period_s=0.001, *, outer=None, estimator=None, supervisor=None, fis=None, **gains)
-/// --
-///
 /// A control stack and what it remembers: outer loop, law and limits, bit for bit those of firmware and simulator.
 ///
 /// Parameters
@@ -184,9 +181,6 @@ impl Controller {
         Self::of(py, robot, described((kind, period_s), tables, (estimator, fis))?)
     }
 
-    /// update(q, nu, p_d, dp_d=None, ddp_d=None)
-    /// --
-    ///
     /// Torque for a state and a reference.
     ///
     /// Parameters
@@ -232,9 +226,6 @@ impl Controller {
         Ok(vector(py, torque))
     }
 
-    /// update_measured(q, p_d, dp_d=None, ddp_d=None, *, wheels=None)
-    /// --
-    ///
     /// Torque for measured positions; the velocity is estimated.
     ///
     /// Parameters
@@ -266,9 +257,6 @@ impl Controller {
         Ok(vector(py, torque))
     }
 
-    /// reset()
-    /// --
-    ///
     /// Forgets everything that was learned and integrated.
     fn reset(&mut self) {
         self.state = self.stack.initial_state();
@@ -325,9 +313,6 @@ impl Controller {
         format!("Controller(kind={:?}, period_s={})", self.kind, self.period)
     }
 
-    /// _restored(robot, text, state)
-    /// --
-    ///
     /// What a pickle is read with.
     #[staticmethod]
     fn _restored(py: Python<'_>, robot: &Robot, text: String, state: &[u8]) -> PyResult<Self> {

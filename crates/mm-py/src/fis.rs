@@ -16,9 +16,6 @@ use crate::errors::{self, FuzzyError};
 /// Samples of an output set where an exact centroid is not to be had.
 const SAMPLES: u32 = 2001;
 
-/// Fis()
-/// --
-///
 /// A fuzzy system: Mamdani or Sugeno, from a ``.fis`` or FCL file.
 ///
 /// Examples
@@ -78,27 +75,18 @@ fn rows(x: &Bound<'_, PyAny>, inputs: usize, outputs: usize) -> PyResult<(Vec<f6
 
 #[pymethods]
 impl Fis {
-    /// thesis()
-    /// --
-    ///
     /// The rule base of the thesis's Appendix C, as printed.
     #[staticmethod]
     fn thesis(py: Python<'_>) -> PyResult<Self> {
         read(py, "thesis.fis", bundled_text("thesis").unwrap_or_default())
     }
 
-    /// smooth()
-    /// --
-    ///
     /// The rule base of ``bfsmc``: continuous, odd, never against the sliding variable.
     #[staticmethod]
     fn smooth(py: Python<'_>) -> PyResult<Self> {
         read(py, "smooth.fis", bundled_text("smooth").unwrap_or_default())
     }
 
-    /// from_file(path)
-    /// --
-    ///
     /// A system from a ``.fis`` or ``.fcl`` file.
     ///
     /// Raises
@@ -110,9 +98,6 @@ impl Fis {
         read(py, &path.display().to_string(), &std::fs::read_to_string(&path)?)
     }
 
-    /// from_text(text, name="system.fis")
-    /// --
-    ///
     /// A system from its text; the ending of ``name`` says in which language.
     #[staticmethod]
     #[pyo3(signature = (text, name = "system.fis"))]
@@ -120,9 +105,6 @@ impl Fis {
         read(py, name, text)
     }
 
-    /// evaluate(x, *, points=None)
-    /// --
-    ///
     /// Outputs for inputs.
     ///
     /// Parameters
@@ -162,9 +144,6 @@ impl Fis {
         reshaped(py, results.map_err(|error: mm_control::fuzzy::FuzzyError| errors::fuzzy(&error))?, &shape)
     }
 
-    /// compile(bits=16, *, output=0, bound=None, max_knots=16384)
-    /// --
-    ///
     /// A table for machines without floating point, of a system of one input or two.
     ///
     /// Parameters
@@ -193,9 +172,6 @@ impl Fis {
         compiled.map(|table| Table { table, bits }).map_err(|error| errors::fuzzy(&error))
     }
 
-    /// to_fis()
-    /// --
-    ///
     /// The system as the text of a ``.fis`` file.
     fn to_fis(&self) -> String {
         write_fis(&self.system)
@@ -254,9 +230,6 @@ pub(crate) struct Table {
 
 #[pymethods]
 impl Table {
-    /// evaluate(x)
-    /// --
-    ///
     /// Outputs in whole numbers, shown in the unit of the output: the bits of the microcontroller.
     fn evaluate<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let ranges = self.table.input_ranges();
@@ -268,18 +241,12 @@ impl Table {
         reshaped(py, numbers.chunks_exact(ranges.len()).map(result).collect(), &shape)
     }
 
-    /// to_rust(name="TABLE")
-    /// --
-    ///
     /// The table as a constant over the types of ``mm_control::fuzzy::fixed``.
     #[pyo3(signature = (name = "TABLE"))]
     fn to_rust(&self, name: &str) -> String {
         self.written(Language::Rust, name)
     }
 
-    /// to_c(name="TABLE")
-    /// --
-    ///
     /// The table as a C99 header with an inline function.
     #[pyo3(signature = (name = "TABLE"))]
     fn to_c(&self, name: &str) -> String {

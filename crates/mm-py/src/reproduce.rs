@@ -11,9 +11,6 @@ use pyo3::types::PyDict;
 use crate::tune::interruptible;
 use crate::{errors, json};
 
-/// reproduce(out, jobs=0, overrides=None, progress=None)
-/// --
-///
 /// Runs all experiments of the thesis and writes their figures: the object of ``mmsim reproduce --json``.
 #[pyfunction]
 #[pyo3(signature = (out, jobs = 0, overrides = None, progress = None))]

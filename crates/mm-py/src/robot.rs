@@ -19,9 +19,6 @@ type Array<'py> = PyResult<Bound<'py, PyArrayDyn<f64>>>;
 /// A scenario with nothing in it but what has to be there: a robot or a controller is read in its place.
 pub(crate) const FRAME: &str = "name = \"frame\"\n[trajectory]\nkind = \"hold\"\n";
 
-/// Robot(**fields)
-/// --
-///
 /// A two-wheel differential-drive base with a yaw-pitch-pitch arm, checked and immutable.
 ///
 /// Configurations are ``q = (x, y, heading, q1, q2, q3)``, velocities ``nu = (forward, yaw_rate, dq1, dq2, dq3)``, torques
@@ -78,9 +75,6 @@ impl Robot {
         Self::read(py, "Robot(...)", &table, &[])
     }
 
-    /// thesis()
-    /// --
-    ///
     /// The robot of the thesis: a base of 24 kg, an arm of three links.
     ///
     /// Examples
@@ -93,9 +87,6 @@ impl Robot {
         Self::read(py, "Robot.thesis()", "", &[])
     }
 
-    /// from_toml(path)
-    /// --
-    ///
     /// The robot of a TOML file, with the keys of ``[robot]`` at its top.
     ///
     /// Parameters
@@ -112,27 +103,18 @@ impl Robot {
         Self::read(py, "Robot.from_toml(...)", "", &[format!("robot.file={}", json::toml(path, "path")?)])
     }
 
-    /// _from_text(text)
-    /// --
-    ///
     /// What a pickle is read with.
     #[staticmethod]
     fn _from_text(py: Python<'_>, text: &str) -> PyResult<Self> {
         Self::read(py, "Robot", text, &[])
     }
 
-    /// to_toml()
-    /// --
-    ///
     /// The robot as a ``[robot]`` table of TOML, complete, that reads back to the same bits.
     #[pyo3(name = "to_toml")]
     fn py_toml(&self) -> String {
         self.toml()
     }
 
-    /// mass_matrix(q)
-    /// --
-    ///
     /// Mass matrix ``M(q)`` of the reduced dynamics ``M nu' + C nu + g = B tau``.
     ///
     /// Parameters
@@ -160,9 +142,6 @@ impl Robot {
         })
     }
 
-    /// coriolis_matrix(q, nu)
-    /// --
-    ///
     /// Matrix ``C(q, nu)`` of Coriolis and centrifugal forces, of the factorization with ``M' - 2 C`` skew-symmetric.
     ///
     /// Parameters
@@ -193,9 +172,6 @@ impl Robot {
         })
     }
 
-    /// gravity(q)
-    /// --
-    ///
     /// Forces of gravity ``g(q)``, shape (5,) or (k, 5); N and N m.
     fn gravity<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> Array<'py> {
         map1(py, (q, "q"), &[5], |q| {
@@ -204,9 +180,6 @@ impl Robot {
         })
     }
 
-    /// bias(q, nu)
-    /// --
-    ///
     /// ``C(q, nu) nu + g(q)``, shape (5,) or (k, 5); N and N m.
     fn bias<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>, nu: &Bound<'py, PyAny>) -> Array<'py> {
         map2(py, ((q, "q"), (nu, "nu")), &[5], |q, nu| {
@@ -215,9 +188,6 @@ impl Robot {
         })
     }
 
-    /// forward_dynamics(q, nu, tau)
-    /// --
-    ///
     /// Acceleration ``nu'`` under a torque.
     ///
     /// Parameters
@@ -254,9 +224,6 @@ impl Robot {
         })
     }
 
-    /// step(q, nu, tau, h)
-    /// --
-    ///
     /// State after a time ``h`` under a constant torque, by one step of the simulator's Runge-Kutta method.
     ///
     /// Parameters
@@ -291,9 +258,6 @@ impl Robot {
         Ok((part(0, 6)?, part(6, 11)?))
     }
 
-    /// inverse_dynamics(q, nu, dnu)
-    /// --
-    ///
     /// Torque that gives an acceleration, shape (5,) or (k, 5); N m.
     fn inverse_dynamics<'py>(
         &self,
@@ -308,9 +272,6 @@ impl Robot {
         })
     }
 
-    /// tip_position(q)
-    /// --
-    ///
     /// Tip of the arm in the world, shape (3,) or (k, 3); m.
     ///
     /// Examples
@@ -322,9 +283,6 @@ impl Robot {
         map1(py, (q, "q"), &[3], |q| self.model.tip_position(&configuration(q)).into())
     }
 
-    /// tip_jacobian(q)
-    /// --
-    ///
     /// Jacobian of the tip: its velocity is ``J nu``; shape (3, 5) or (k, 3, 5).
     fn tip_jacobian<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> Array<'py> {
         map1(py, (q, "q"), &[3, 5], |q| {
@@ -336,17 +294,11 @@ impl Robot {
         })
     }
 
-    /// manipulability(q)
-    /// --
-    ///
     /// ``sqrt(det(J J'))`` with the whole Jacobian, shape () or (k,).
     fn manipulability<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> Array<'py> {
         map1(py, (q, "q"), &[], |q| [self.model.manipulability(&configuration(q))])
     }
 
-    /// params
-    /// --
-    ///
     /// All parameters, a dict with the names of ``[robot]``.
     #[getter]
     fn params<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

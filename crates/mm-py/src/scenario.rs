@@ -10,9 +10,6 @@ use crate::robot::Robot;
 use crate::trajectory::Trajectory;
 use crate::{errors, json};
 
-/// Scenario(spec, overrides=None, *, controller=None, seed=None)
-/// --
-///
 /// A scenario that was read and checked.
 ///
 /// Parameters
@@ -80,9 +77,6 @@ impl Scenario {
         Self::of(py, scenario::load(spec, &edits(overrides, controller, seed)?))
     }
 
-    /// from_text(text, overrides=None, *, name="scenario")
-    /// --
-    ///
     /// A scenario from its TOML text; ``name`` stands for the file in messages.
     #[staticmethod]
     #[pyo3(signature = (text, overrides = None, *, name = "scenario"))]
@@ -95,9 +89,6 @@ impl Scenario {
         Self::of(py, scenario::from_text(name, text, &json::edits(overrides, "")?))
     }
 
-    /// edited(overrides=None, *, controller=None, seed=None)
-    /// --
-    ///
     /// The same scenario with more overrides laid over it.
     #[pyo3(signature = (overrides = None, *, controller = None, seed = None))]
     fn edited(
@@ -110,9 +101,6 @@ impl Scenario {
         Self::of(py, self.loaded.edited(&edits(overrides, controller, seed)?))
     }
 
-    /// _with_edits(edits)
-    /// --
-    ///
     /// The same scenario with edits ``KEY=VALUE`` laid over it.
     fn _with_edits(&self, py: Python<'_>, edits: Vec<String>) -> PyResult<Self> {
         Self::of(py, self.loaded.edited(&edits))
@@ -187,9 +175,6 @@ impl Scenario {
         self.loaded.snapshot() == other.loaded.snapshot()
     }
 
-    /// _restored(text)
-    /// --
-    ///
     /// What a pickle is read with.
     #[staticmethod]
     fn _restored(py: Python<'_>, text: &str) -> PyResult<Self> {
@@ -205,9 +190,6 @@ impl Scenario {
     }
 }
 
-/// bundled()
-/// --
-///
 /// Names and texts of the bundled scenarios, a dict.
 #[pyfunction]
 pub(crate) fn bundled(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {

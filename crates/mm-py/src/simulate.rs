@@ -16,9 +16,6 @@ use crate::recording::Recording;
 use crate::scenario::Scenario;
 use crate::{errors, json};
 
-/// simulate(scenario, controller=None, plant=None, log=None, progress=None)
-/// --
-///
 /// Runs a scenario: a dict of arrays, with the summary under ``"summary"``.
 #[pyfunction]
 #[pyo3(signature = (scenario, controller = None, plant = None, log = None, progress = None))]
@@ -105,9 +102,6 @@ fn run<const C: bool, const P: bool>(
     (result, outside.raised)
 }
 
-/// log_run(scenario, path)
-/// --
-///
 /// Runs a scenario again and writes its log; the digest of the run.
 #[pyfunction]
 pub(crate) fn log_run<'py>(

@@ -11,9 +11,6 @@ use crate::arrays::{Rows, configuration, of_torque, vector, velocity};
 use crate::controller::{Controller, measurement, outcomes, reference};
 use crate::errors;
 
-/// Supervisor(controller)
-/// --
-///
 /// A controller behind checks of what arrives: a torque within the limits, whatever comes in.
 ///
 /// Run, hold (the last torque, two periods), stop (braking), fault (no torque, brakes). Limits are those given to the controller as
@@ -111,9 +108,6 @@ impl Supervisor {
         Ok(Self { state: stack.initial_state(), stack, period: loaded.file.simulation.control_period_s })
     }
 
-    /// update(q, nu, p_d, dp_d=None, ddp_d=None, *, elapsed_s=None, age_s=0.0)
-    /// --
-    ///
     /// Command for a state and a reference, whatever they are.
     ///
     /// Parameters
@@ -150,9 +144,6 @@ impl Supervisor {
         Ok(Command(self.stack.update(&mut self.state, timing, &input)))
     }
 
-    /// update_measured(q, p_d, dp_d=None, ddp_d=None, *, wheels=None, elapsed_s=None, age_s=0.0)
-    /// --
-    ///
     /// Command for measured positions; the velocity is estimated.
     #[pyo3(signature = (q, p_d, dp_d = None, ddp_d = None, *, wheels = None, elapsed_s = None, age_s = 0.0))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
@@ -171,18 +162,12 @@ impl Supervisor {
         Ok(Command(self.stack.update_measured(&mut self.state, timing, &measured, &reference)))
     }
 
-    /// missed(elapsed_s=None)
-    /// --
-    ///
     /// Command where no input arrived in time.
     #[pyo3(signature = (elapsed_s = None))]
     fn missed(&mut self, elapsed_s: Option<f64>) -> Command {
         Command(self.stack.missed(&mut self.state, elapsed_s.unwrap_or(self.period)))
     }
 
-    /// reset()
-    /// --
-    ///
     /// Ends a fault: a new state, nothing learned.
     fn reset(&mut self) {
         self.stack.reset(&mut self.state);

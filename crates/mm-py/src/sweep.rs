@@ -12,18 +12,12 @@ use crate::{errors, json};
 /// A sample as it travels: number, seed, how it ended, time simulated, quantities, digest.
 type Travelling = (u64, u64, String, f64, [f64; QUANTITIES.len()], String);
 
-/// sample_edits(scenario, seed, sample)
-/// --
-///
 /// The edits of a sample, ``KEY=VALUE`` each.
 #[pyfunction]
 pub(crate) fn sample_edits(scenario: &Scenario, seed: u64, sample: u64) -> Vec<String> {
     sweep::edits(&scenario.loaded.file, seed, sample)
 }
 
-/// sweep_rows(scenario, seed, first, end, jobs=1, progress=None)
-/// --
-///
 /// Runs the samples from ``first`` up to ``end`` on so many threads; a list of tuples in their order.
 #[pyfunction]
 #[pyo3(signature = (scenario, seed, first, end, jobs = Some(1), progress = None))]
@@ -59,9 +53,6 @@ fn travelling(row: Row) -> Travelling {
     (sample, seed, ended.name().to_owned(), simulated_s, values, digest)
 }
 
-/// sweep_report(scenario, seed, rows, again)
-/// --
-///
 /// What the samples of a sweep show: the object of ``mmsim sweep --json``; ``again`` are the arguments that run the scenario.
 #[pyfunction]
 pub(crate) fn sweep_report<'py>(

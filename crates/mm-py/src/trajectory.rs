@@ -10,9 +10,6 @@ use crate::arrays::reshaped;
 use crate::errors;
 use crate::scenario::Scenario;
 
-/// Trajectory(scenario)
-/// --
-///
 /// Motion of the tip that a scenario asks for: position, velocity, acceleration at any time.
 ///
 /// Parameters
@@ -49,9 +46,6 @@ impl Trajectory {
         Self::of(py, scenario)
     }
 
-    /// at(t)
-    /// --
-    ///
     /// Position, velocity and acceleration at a time or many.
     ///
     /// Parameters

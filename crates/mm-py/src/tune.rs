@@ -58,9 +58,6 @@ pub(crate) fn interruptible<R: Send>(
     })
 }
 
-/// tune(scenario, seed=None, jobs=None, progress=None)
-/// --
-///
 /// Tunes the controller of a scenario: a dict of gains, costs, metrics and digest.
 #[pyfunction]
 #[pyo3(signature = (scenario, seed = None, jobs = None, progress = None))]

@@ -36,3 +36,10 @@ def test_example(test):
 @pytest.mark.parametrize("name", mmsim.__all__)
 def test_everything_is_documented(name):
     assert name.startswith("__") or inspect.getdoc(getattr(mmsim, name))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_signatures_stand_where_tools_look_for_them(name):
+    kind = getattr(mmsim, name)
+    for item in (kind, *(value for key, value in vars(kind).items() if callable(value) and not key.startswith("_"))):
+        assert "--\n" not in (item.__doc__ or "")

@@ -34,7 +34,7 @@ impl Snapshot {
     ///
     /// # Errors
     ///
-    /// As [`load`], where the texts are not those of a scenario that was loaded.
+    /// As [`load`](super::load), where the texts are not those of a scenario that was loaded.
     pub fn restore(&self) -> Result<Loaded, ScenarioError> {
         let source = |(name, text): &(String, String)| Source { name: name.clone(), text: text.clone() };
         let known: Vec<Source> = self.texts.iter().map(source).collect();
