@@ -42,4 +42,4 @@ def test_everything_is_documented(name):
 def test_signatures_stand_where_tools_look_for_them(name):
     kind = getattr(mmsim, name)
     for item in (kind, *(value for key, value in vars(kind).items() if callable(value) and not key.startswith("_"))):
-        assert "--\n" not in (item.__doc__ or "")
+        assert "\n--\n" not in (item.__doc__ or "")
