@@ -136,7 +136,6 @@ def test_errors_have_places(tmp_path):
         mmsim.simulate("sqare")
 
 
-@pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_ctrl_c_ends_a_run(tmp_path):
     # What starts the tests may have Ctrl-C ignored.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
