@@ -203,6 +203,11 @@ class Run:
         for index, name in enumerate(CHANNELS):
             surfaces.plot(self.t, self.sliding[:, index], lw=1, label=name)
         surfaces.set(xlabel="t, s", ylabel="m/s, rad/s", title="sliding variables")
+        for axis, values in ((errors, 1e3 * self.error), (surfaces, self.sliding)):
+            # The start may be a thousand times what follows: linear for 99 % of the samples, logarithmic beyond.
+            most = float(np.percentile(np.abs(values), 99)) if values.size else 0.0
+            if 0 < 20 * most < np.abs(values).max():
+                axis.set_yscale("symlog", linthresh=most)
         for axis in axes.flat:
             axis.grid(visible=True, lw=0.3)
             axis.legend(fontsize=8)
