@@ -11,11 +11,10 @@ use std::process::{Command, ExitCode};
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Map, Value, json};
 
-use crate::shell::{
-    answers, cargo, command_with, install, output, root, run as run_command, target_directory,
-};
+use crate::shell::{cargo, command_with, output, root, run as run_command, target_directory};
 use crate::table::{Table, grouped};
 use crate::targets::Compiler;
+use crate::tools::{QEMU_ARM, require};
 
 /// A target and a machine of QEMU that has its processor.
 struct Machine {
@@ -80,9 +79,7 @@ pub(crate) fn check() -> Result<()> {
 
 /// Counts and shows; whether all is well.
 fn measure(json: bool, fallback: bool) -> Result<bool> {
-    if !answers("qemu-system-arm", &["--version"]) {
-        install(&["qemu-system-arm"])?;
-    }
+    require(&[QEMU_ARM])?;
     let budgets = budgets()?;
     let here: Counts =
         counts(&on_host()?)?.into_iter().filter(|(name, _)| name.starts_with("fuzzy-")).collect();

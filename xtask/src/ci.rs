@@ -1,13 +1,14 @@
 //! Everything that a change has to pass, step by step; the first failure ends it.
 
 use std::process::ExitCode;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, ensure};
 
 use crate::mmsim::{Mmsim, Profile};
 use crate::shell::{answers, cargo, run as run_command, watch};
-use crate::{bench_targets, capi, fuzzy_peers, pil, qemu, scenarios, size, wheel};
+use crate::{bench_targets, capi, fuzzy_peers, pil, qemu, scenarios, size, tools, wheel};
 
 /// How a step ended, unless it failed.
 enum End {
@@ -73,6 +74,7 @@ pub(crate) fn run() -> Result<ExitCode> {
     let mut tests = Tests::default();
     let mut times = Vec::new();
     let mut failure = None;
+    thread::spawn(fetch_ahead);
     for (i, (name, step)) in STEPS.iter().enumerate() {
         println!("\n== {}/{} {name}", i + 1, STEPS.len());
         let begin = Instant::now();
@@ -102,6 +104,15 @@ pub(crate) fn run() -> Result<ExitCode> {
     }
     println!("{} passed, {} failed", tests.passed, tests.failed);
     Ok(if failure.is_none() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Installs tools and packages of Python while the first steps compile: that waits for the network more than for a processor. Where
+/// it fails, the step that needs them tries again and says why.
+fn fetch_ahead() {
+    drop(tools::require(&tools::ALL));
+    for prepare in [fuzzy_peers::prepare, wheel::prepare] {
+        drop(prepare());
+    }
 }
 
 /// Turns the verdict of another job into that of a step.

@@ -10,8 +10,9 @@ use anyhow::{Context, Result};
 use serde_json::{Map, Value, json};
 
 use crate::parallel;
-use crate::shell::{self, answers, cargo, command, install, target_directory};
+use crate::shell::{self, cargo, command, target_directory};
 use crate::table::{Table, grouped};
+use crate::tools::{VALGRIND, require};
 
 /// One operation of the `count` program.
 struct Operation {
@@ -68,9 +69,7 @@ const OPERATIONS: [Operation; 15] = [
 
 /// Counts every operation; fails when a budget is exceeded.
 pub(crate) fn run(json: bool, target_cpu: Option<&str>) -> Result<ExitCode> {
-    if !answers("valgrind", &["--version"]) {
-        install(&["valgrind"])?;
-    }
+    require(&[VALGRIND])?;
     let program = build(target_cpu)?;
     let counts = parallel::map(&OPERATIONS, |operation| count(&program, operation));
     let counts: Vec<u64> = counts.into_iter().collect::<Result<_>>()?;

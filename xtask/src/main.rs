@@ -21,6 +21,7 @@ mod shell;
 mod size;
 mod table;
 mod targets;
+mod tools;
 mod wheel;
 
 use std::process::ExitCode;

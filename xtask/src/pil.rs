@@ -7,9 +7,10 @@ use anyhow::{Context, Result};
 use serde_json::Value;
 
 use crate::mmsim::Mmsim;
-use crate::shell::{answers, install, root, run as run_command};
+use crate::shell::{root, run as run_command};
 use crate::table::{Table, grouped};
 use crate::targets::Compiler;
+use crate::tools::{QEMU_ARM, QEMU_RISCV, require};
 
 /// What is compared, and how long.
 struct Case {
@@ -79,13 +80,7 @@ pub(crate) fn check(options: &Options, mmsim: impl FnOnce() -> Result<Mmsim>) ->
     if options.scope == Scope::Build {
         return Ok(true);
     }
-    for (program, package) in
-        [("qemu-system-arm", "qemu-system-arm"), ("qemu-system-riscv32", "qemu-system-misc")]
-    {
-        if !answers(program, &["--version"]) {
-            install(&[package])?;
-        }
-    }
+    require(&[QEMU_ARM, QEMU_RISCV])?;
     let mmsim = mmsim()?;
     let mut table = Table::new(&[
         "target",

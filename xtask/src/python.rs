@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result};
 
@@ -10,8 +11,12 @@ use crate::shell::{answers, command, install, run};
 /// Debian's packages for a virtual environment.
 const PACKAGES: [&str; 2] = ["python3", "python3-venv"];
 
+/// Held while an environment is made: who asks for one that is being made ahead waits for it.
+static MAKING: Mutex<()> = Mutex::new(());
+
 /// The Python of a virtual environment with the packages of a list; a copy of the list in it says that it is complete.
 pub(crate) fn environment(directory: &Path, list: &Path) -> Result<PathBuf> {
+    let _making = MAKING.lock().unwrap_or_else(PoisonError::into_inner);
     let python = directory.join("bin/python");
     let wanted = std::fs::read_to_string(list).with_context(|| format!("cannot read {}", list.display()))?;
     let stamp = directory.join("requirements.txt");

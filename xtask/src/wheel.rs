@@ -26,10 +26,15 @@ pub(crate) fn run(options: Options) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// The environment that builds and tests the package; its Python.
+pub(crate) fn prepare() -> Result<PathBuf> {
+    environment(&target_directory()?.join("python"), &root().join(TESTS).join("requirements.txt"))
+}
+
 /// The same; `see` gets each line that the tests print.
 pub(crate) fn check(options: Options, see: impl FnMut(&str)) -> Result<()> {
     let target = target_directory()?;
-    let python = environment(&target.join("python"), &root().join(TESTS).join("requirements.txt"))?;
+    let python = prepare()?;
     let wheels = target.join("wheels");
     if wheels.exists() {
         std::fs::remove_dir_all(&wheels)?;

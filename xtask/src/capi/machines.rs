@@ -7,7 +7,8 @@ use anyhow::{Context, Result, ensure};
 
 use super::native::{Lines, PRECISIONS, Precision, compiled};
 use super::{Request, archive};
-use crate::shell::{answers, command_with, install, output, root};
+use crate::shell::{command_with, output, root};
+use crate::tools::{ARM_C, QEMU_ARM, require};
 
 /// A target, its machine, and how C is compiled for it.
 struct Machine {
@@ -67,12 +68,7 @@ const PATIENCE: &str = "120";
 
 /// Builds, links, looks into the program and runs it; the lines have to be those of this machine.
 pub(super) fn check(request: &Request, here: &[Lines]) -> Result<()> {
-    if !answers(C, &["--version"]) {
-        install(&["gcc-arm-none-eabi", "libnewlib-arm-none-eabi"])?;
-    }
-    if !answers("qemu-system-arm", &["--version"]) {
-        install(&["qemu-system-arm"])?;
-    }
+    require(&[ARM_C, QEMU_ARM])?;
     let machines = if request.full { &MACHINES[..] } else { MACHINES.get(..USUAL).unwrap_or(&MACHINES) };
     let also = request.full.then_some(ALSO);
     let targets: Vec<&str> = machines.iter().map(|machine| machine.target).chain(also).collect();

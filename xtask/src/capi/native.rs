@@ -7,7 +7,8 @@ use std::process::Command;
 use anyhow::{Context, Result, ensure};
 
 use super::{archive, header};
-use crate::shell::{answers, command, command_with, install, output, root, run, target_directory};
+use crate::shell::{command, command_with, output, root, run, target_directory};
+use crate::tools::{VALGRIND, require};
 
 /// What a program prints, line by line.
 pub(super) type Lines = Vec<String>;
@@ -34,10 +35,7 @@ const LIBRARIES: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
 
 /// Runs everything; the lines of the ticks are in the order of the precisions.
 pub(super) fn check() -> Result<Vec<Lines>> {
-    if !answers("valgrind", &["--version"]) {
-        // The C library's symbols, without which it does not start.
-        install(&["valgrind", "libc6-dbg"])?;
-    }
+    require(&[VALGRIND])?;
     let host = archive::host()?;
     let built = archive::build(&[&host], false)?;
     let archive = built.first().context("no archive")?;

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 
-use crate::shell::{answers, command_with, install};
+use crate::shell::command_with;
+use crate::tools::{QEMU_ARM, QEMU_RISCV, Tool, require};
 
 /// A target and a machine of QEMU that has its processor.
 #[derive(Debug)]
@@ -64,14 +65,9 @@ pub(crate) struct Run {
 
 /// Installs the emulators of these machines where they are missing.
 pub(crate) fn install_emulators(machines: &[Machine]) -> Result<()> {
-    let needed = [("qemu-system-arm", "qemu-system-arm"), ("qemu-system-riscv32", "qemu-system-misc")];
-    let is_used = |program: &str| machines.iter().any(|machine| machine.arguments.first() == Some(&program));
-    let missing: Vec<&str> = needed
-        .into_iter()
-        .filter(|(program, _)| is_used(program) && !answers(program, &["--version"]))
-        .map(|(_, package)| package)
-        .collect();
-    if missing.is_empty() { Ok(()) } else { install(&missing) }
+    let is_used =
+        |tool: &Tool| machines.iter().any(|machine| machine.arguments.first() == Some(&tool.program));
+    require(&[QEMU_ARM, QEMU_RISCV].into_iter().filter(is_used).collect::<Vec<_>>())
 }
 
 impl Machine {
