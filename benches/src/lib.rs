@@ -51,8 +51,14 @@ where
 /// 64 points spread evenly over joint limits, headings, velocities and torques, the same in every run.
 #[must_use]
 pub fn points<T: Real>() -> Vec<Point<T>> {
+    many_points(64)
+}
+
+/// The same, as many as one likes.
+#[must_use]
+pub fn many_points<T: Real>(count: usize) -> Vec<Point<T>> {
     let mut numbers = Numbers::new();
-    (0..64)
+    (0..count)
         .map(|_| {
             let mut between = |lo, hi| T::from_f64(numbers.between(lo, hi));
             Point {
@@ -173,4 +179,11 @@ impl Numbers {
         z ^= z >> 31;
         lo + (hi - lo) * ((z >> 11) as f64 / (1_u64 << 53) as f64)
     }
+}
+
+/// Time that this thread has spent on a CPU, ns; Linux knows it, elsewhere it is `None` and the clock on the wall has to do.
+#[must_use]
+pub fn cpu_time() -> Option<u128> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    text.split_whitespace().next()?.parse().ok()
 }

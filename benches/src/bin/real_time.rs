@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
-use mm_benches::{SQUARE_TICKS, square};
+use mm_benches::{SQUARE_TICKS, cpu_time, square};
 use mm_control::LawKind;
 use mm_sim::simulation::{Ending, NoRecorder};
 
@@ -20,10 +20,4 @@ fn main() -> Result<()> {
         println!("{}", after - before);
     }
     Ok(())
-}
-
-/// Time that this thread has spent on a CPU, ns; Linux knows it, elsewhere the clock on the wall has to do.
-fn cpu_time() -> Option<u128> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    text.split_whitespace().next()?.parse().ok()
 }

@@ -1,10 +1,9 @@
-"""What the way through Python costs: `python speed.py [MMSIM]`, MMSIM being the command to compare with.
+"""What the way through Python costs: `python speed.py MMSIM DYNAMICS`, the commands `mmsim` and `dynamics` (of mm-benches) built for release.
 
-Prints the time of one ``Controller.update``, of a batched forward dynamics per state, and of ``simulate`` beside the command
-without a log, each the least of many alternated runs: ratios and not times are what can be compared between machines.
+Prints the time of one ``Controller.update``, of a batched forward dynamics beside a loop in Rust, and of ``simulate`` beside the
+command without a log, each the least of many alternated runs: ratios and not times are what can be compared between machines.
 """
 
-import shutil
 import subprocess
 import sys
 import time
@@ -26,6 +25,7 @@ def least(work, runs: int) -> float:
 
 def main() -> None:
     """Measures and prints."""
+    command, dynamics = sys.argv[1:]
     robot = mmsim.Robot.thesis()
     ctrl = mmsim.Controller(robot)
     q, nu = np.array([0, 0, 0, 0.1, 1.0, -2.0]), np.zeros(5)
@@ -39,16 +39,25 @@ def main() -> None:
     rng = np.random.default_rng(0)
     k = 100_000
     qs, nus, taus = rng.uniform(-2, 2, (k, 6)), rng.uniform(-1, 1, (k, 5)), rng.uniform(-9, 9, (k, 5))
-    took = least(lambda: robot.forward_dynamics(qs, nus, taus), 20)
-    print(f"forward_dynamics of {k} states: {1e9 * took / k:.1f} ns each")
-    command = sys.argv[1] if len(sys.argv) > 1 else shutil.which("mmsim")
+    here, there = [], []
+    for _ in range(20):
+        here.append(least(lambda: robot.forward_dynamics(qs, nus, taus), 2))
+        out = subprocess.run([dynamics, str(k), "2"], check=True, capture_output=True, text=True).stdout
+        there.append(1e-9 * min(map(int, out.split())))
+    report(f"forward_dynamics of {k} states, the loop in Rust", here, there)
     scenario = mmsim.Scenario("square", {"simulation.log_rate_hz": 100.0})
     here, there = [], []
     for _ in range(20):
         here.append(least(lambda: mmsim.simulate(scenario, progress=False), 1))
         words = [command, "--scenario", "square", "--no-log", "--quiet", "--json"]
         there.append(least(lambda: subprocess.run(words, check=True, capture_output=True), 1))
-    print(f"simulate: {1e3 * min(here):.1f} ms, the command {1e3 * min(there):.1f} ms, {min(here) / min(there):.2f} of it")
+    report("simulate, the command", here, there)
+
+
+def report(names: str, here: list[float], there: list[float]) -> None:
+    """Prints the least of both and their ratio."""
+    ratio = min(here) / min(there)
+    print(f"{names}: {1e3 * min(here):.2f} ms, {1e3 * min(there):.2f} ms, ratio {ratio:.2f}")
 
 
 if __name__ == "__main__":
