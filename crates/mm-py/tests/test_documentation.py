@@ -1,13 +1,17 @@
 """Every example in the documentation of the module is run."""
 
+import contextlib
 import doctest
 import inspect
+import io
+import pathlib
 
 import pytest
 
 import mmsim
 from mmsim import _batch, _run
 
+ROOT = pathlib.Path(__file__).parents[3]
 #: Functions and classes, whose methods have examples too.
 NAMES = [name for name in mmsim.__all__ if inspect.isclass(getattr(mmsim, name))]
 
@@ -43,3 +47,14 @@ def test_signatures_stand_where_tools_look_for_them(name):
     kind = getattr(mmsim, name)
     for item in (kind, *(value for key, value in vars(kind).items() if callable(value) and not key.startswith("_"))):
         assert "\n--\n" not in (item.__doc__ or "")
+
+
+@pytest.mark.parametrize("path", ["README.md", "crates/mm-py/README.md"])
+def test_the_readme_prints_what_it_says(path):
+    text = (ROOT / path).read_text(encoding="utf-8")
+    example = text.split("```python\n")[1].split("```")[0]
+    said = [line.split("  # ")[1] for line in example.splitlines() if line.startswith("print(")]
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(example, {})
+    assert said and printed.getvalue().splitlines() == said
