@@ -179,7 +179,7 @@ impl Core {
                 #[cfg(not(feature = "double"))]
                 Kind::Tick64 => self.refuse(frame, Reason::Precision, port),
                 _ => {
-                    engine.reset(seq);
+                    engine.reset(seq, &self.time);
                     self.keep(frame, Kind::Done, &(), port);
                 }
             },
@@ -204,7 +204,7 @@ impl Core {
             return self.refuse(frame, Reason::Precision, port);
         };
         let before = engine.missed();
-        let command = engine.tick(frame.header.seq, gap, &tick, (&mut self.time, clock));
+        let command = engine.tick(frame.header.seq, gap, &tick, (&self.time, clock));
         self.counters.missed = self.counters.missed.saturating_add(engine.missed() - before);
         count(&mut self.counters.updates);
         self.keep(frame, T::COMMAND, &command, port);

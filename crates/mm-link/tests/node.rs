@@ -10,7 +10,7 @@ mod common;
 
 use common::{Host, SETTLED, TestClock, Wire, frame, ticks};
 use mm_control::LawKind;
-use mm_control::supervisor::Mode;
+use mm_control::supervisor::{Findings, Mode};
 use mm_link::{Counters, Header, Kind, LONGEST_ON_WIRE, Node, Pace, Reason, Refusal, Report, encode};
 
 /// Sends what stands in the wire to the node and checks law (1).
@@ -269,6 +269,29 @@ fn by_its_own_clock_the_target_holds_then_stops_and_comes_back() {
     host.done(Kind::Reset, seq + 1);
     let (_, tick) = all.next().expect("a tick");
     assert_eq!(run(&mut host, (seq + 2, tick)).mode, Mode::Run, "a reset does");
+}
+
+/// Runs ticks numbered one by one that come every so many periods; how many until one is found too old.
+fn ticks_until_stale(periods: f64, most: usize) -> Option<usize> {
+    let mut host = Host::<f64>::new(LawKind::Bfsmc, false, Pace::RealTime);
+    ticks::<f64>(false).take(most).position(|(seq, tick)| {
+        host.clock.advance(periods * 1e-3);
+        let command = host.tick(seq, &tick).expect("an answer");
+        command.findings.any_of(Findings::STALE)
+    })
+}
+
+#[test]
+fn a_delay_that_creeps_up_is_noticed_and_a_clock_that_drifts_is_not() {
+    for periods in [1.45, 1.1, 1.01] {
+        // The age that is allowed, two periods, adds up at the surplus of each, less the thousandth that is forgiven.
+        let due = 2.0 / (periods - 1.001);
+        let found = ticks_until_stale(periods, 1000).unwrap_or(usize::MAX) as f64;
+        assert!((0.9 * due..1.2 * due + 2.0).contains(&found), "{periods} periods: after {found} ticks");
+    }
+    for periods in [0.999, 1.0005] {
+        assert_eq!(ticks_until_stale(periods, 10_000), None, "{periods} periods");
+    }
 }
 
 #[test]
