@@ -1,6 +1,6 @@
 //! Chooses the machine of a target, and its memory for the linker.
 //!
-//! Another machine is another name here, a file `src/NAME.rs` and a file `memory/NAME.x`.
+//! Another machine is another name here, a file `src/NAME.rs` with its line in `src/lib.rs`, and a file `memory/NAME.x`.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
 //! What all Cortex-M have: the way in, the timer SysTick, faults.
-#![expect(unsafe_code, reason = "the runtime wants the handler of faults to be unsafe to call")]
+#![expect(unsafe_code, reason = "the runtime wants the handler of faults to be unsafe to call; the timer is taken without asking")]
 
 use core::fmt::Write;
 
@@ -15,14 +15,14 @@ use crate::{Console, exit};
 pub struct Clock;
 
 impl Clock {
-    /// Starts the timer.
+    /// Starts the timer, whoever else has taken the peripherals before.
     pub(crate) fn start() -> Self {
-        if let Some(Peripherals { SYST: mut timer, .. }) = Peripherals::take() {
-            timer.set_clock_source(SystClkSource::Core);
-            timer.set_reload(0x00ff_ffff);
-            timer.clear_current();
-            timer.enable_counter();
-        }
+        // SAFETY: the timer is used here alone, and from now on read only.
+        let Peripherals { SYST: mut timer, .. } = unsafe { Peripherals::steal() };
+        timer.set_clock_source(SystClkSource::Core);
+        timer.set_reload(0x00ff_ffff);
+        timer.clear_current();
+        timer.enable_counter();
         Self
     }
 

@@ -2,7 +2,7 @@
 //! depth of the stack.
 //!
 //! A machine is one file: `mps2.rs` (a Cortex-M4F or a Cortex-M3), `microbit.rs` (a Cortex-M0), `virt.rs` (RISC-V). It has
-//! `start`, which makes the machine ready, a `Serial` and a `Clock`; what all Cortex-M have in common is in `cortex.rs`.
+//! `start`, which makes the machine ready, a `Serial`, a `Clock`, its `CLOCK_HZ` and a `NAME`; what all Cortex-M have in common is in `cortex.rs`.
 //! Console, files and the way out go over semihosting, through the debugger or the emulator (`host.rs`). `build.rs`
 //! says which machine a target means, and gives the linker the memory of it.
 //!
@@ -32,7 +32,7 @@ mod register;
 mod stack;
 
 pub use host::{Console, File, argument, exit};
-pub use machine::{Clock, Serial, entry};
+pub use machine::{CLOCK_HZ, Clock, NAME, Serial, entry};
 pub use panics::{refuse, report};
 pub use place::Place;
 pub use stack::Stack;

@@ -5,6 +5,11 @@
 pub use crate::cortex::{Clock, entry};
 use crate::register::Register;
 
+/// What it is called over a link.
+pub const NAME: &str = "cortex-m0";
+/// Rate of the clock, Hz.
+pub const CLOCK_HZ: u32 = 16_000_000;
+
 /// Makes the machine ready.
 pub(crate) fn start() -> (Serial, Clock) {
     (Serial::start(), Clock::start())

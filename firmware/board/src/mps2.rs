@@ -3,6 +3,11 @@
 pub use crate::cortex::{Clock, entry};
 use crate::register::Register;
 
+/// What it is called over a link.
+pub const NAME: &str = if cfg!(target_abi = "eabihf") { "cortex-m4f" } else { "cortex-m3" };
+/// Rate of the clock, Hz.
+pub const CLOCK_HZ: u32 = 25_000_000;
+
 /// Makes the machine ready.
 pub(crate) fn start() -> (Serial, Clock) {
     (Serial::start(), Clock::start())

@@ -10,6 +10,11 @@ pub use riscv_rt::entry;
 use crate::register::Register;
 use crate::{Console, exit};
 
+/// What it is called over a link.
+pub const NAME: &str = "riscv32imac";
+/// Rate of the clock, Hz.
+pub const CLOCK_HZ: u32 = 1_000_000_000;
+
 /// Makes the machine ready.
 pub(crate) fn start() -> (Serial, Clock) {
     (Serial::start(), Clock)

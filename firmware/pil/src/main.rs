@@ -10,16 +10,6 @@ mod program {
 
     board::program!(run);
 
-    /// Name and clock of the machine.
-    #[cfg(target_arch = "riscv32")]
-    const MACHINE: (&str, u32) = ("riscv32imac", 1_000_000_000);
-    #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
-    const MACHINE: (&str, u32) = ("cortex-m4f", 25_000_000);
-    #[cfg(all(target_arch = "arm", not(target_abi = "eabihf"), target_has_atomic = "32"))]
-    const MACHINE: (&str, u32) = ("cortex-m3", 25_000_000);
-    #[cfg(all(target_arch = "arm", not(target_abi = "eabihf"), not(target_has_atomic = "32")))]
-    const MACHINE: (&str, u32) = ("cortex-m0", 16_000_000);
-
     /// Instructions of the loop that says how long one takes.
     const LOOP: u32 = 10_000;
 
@@ -48,10 +38,13 @@ mod program {
     }
 
     fn run(board: &mut Board) -> bool {
-        let (target, ticks_per_second) = MACHINE;
         let clock = Timer(&board.clock);
         let loop_ticks = looped(&clock, LOOP).saturating_sub(looped(&clock, 0));
-        let mut node = Node::new(Identity { target, ticks_per_second, loop_ticks });
+        let mut node = Node::new(Identity {
+            target: board::NAME,
+            ticks_per_second: board::CLOCK_HZ,
+            loop_ticks,
+        });
         let mut port = Wire(&mut board.serial);
         loop {
             if !node.poll(&mut port, &clock) {
