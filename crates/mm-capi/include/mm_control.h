@@ -563,7 +563,7 @@ typedef struct {
      */
     double correction_speed_limit_m_s;
     /**
-     * Rate at which the joint rates asked for may approach a joint limit, 1/s; 0 sets no bound.
+     * Rate at which the joint rates asked for may approach a joint limit, 1/s; 0 sets no bound, on the forward speed neither.
      */
     double joint_limit_rate_1_s;
     /**
@@ -1223,7 +1223,7 @@ typedef struct {
      */
     float correction_speed_limit_m_s;
     /**
-     * Rate at which the joint rates asked for may approach a joint limit, 1/s; 0 sets no bound.
+     * Rate at which the joint rates asked for may approach a joint limit, 1/s; 0 sets no bound, on the forward speed neither.
      */
     float joint_limit_rate_1_s;
     /**

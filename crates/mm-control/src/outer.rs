@@ -2,9 +2,12 @@
 
 mod base_share;
 mod correction;
+mod held_base;
 mod params;
 mod posture_task;
+mod rate_bounds;
 mod restrained;
+mod solution;
 
 pub use params::OuterParams;
 
@@ -13,8 +16,9 @@ use nalgebra::Vector3;
 
 use crate::Reference;
 use crate::symmetric3::Symmetric3;
-use base_share::{BaseHold, BaseShare};
-use restrained::{RateBounds, Situation};
+use base_share::BaseHold;
+use rate_bounds::RateBounds;
+use solution::Solution;
 
 /// What the outer loop asks of the inner one, and what it saw on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +35,8 @@ pub struct OuterOutput<T, const N: usize> {
     pub manipulability_squared: T,
     /// Square of the damping lambda; above zero only near a singularity.
     pub damping_squared: T,
-    /// Whether the manipulability, that of the channels free to move, is below the threshold at which damping sets in.
+    /// Whether the manipulability is below the threshold at which damping sets in, or too little of det(A) is left to the channels free
+    /// to move.
     pub near_singular: bool,
     /// Whether the correction K e was cut to its largest speed, or the base held to the speed up to which the model holds.
     pub speed_limited: bool,
@@ -69,10 +74,10 @@ pub struct OuterOutput<T, const N: usize> {
 ///   exponentially. What is lost is the margin: an inner error d = J (nu - nu_c) gives V' = -|K e| (L - |d|) at worst, which
 ///   is negative only for |d| < L. A reference faster than the robot is not caught up with either.
 /// - **Bounds on rates.** -gamma (q - lo) <= dq_c <= gamma (hi - q), which makes the box of joint limits invariant for nu = nu_c, and
-///   |v_c| at most the speed up to which the model holds. A channel beyond its bound is held to it, the rest is solved again: the
-///   others take over as far as they can, so that e' = -K e still holds as long as three independent directions are left.
-///   Otherwise the tip falls behind in the direction that is lost: with the damping, e' = -(I - P) K e - P p_d' for a symmetric
-///   P with 0 <= P <= I, and e stays bounded for a reference that rests. Where several channels are at their bounds, nu_c may jump.
+///   |v_c| at most the speed up to which the model holds. A channel beyond its bound is held to it and the others take over, so
+///   that e' = -K e still holds as long as they leave at least 0.3 of det(A) and lambda = 0. Otherwise the tip falls behind in the direction
+///   that is lost, J nu_c = u - sum (1 - h_i) e_i j_i with the excess e_i and 0 <= h_i <= 1, and nothing is claimed of e but the
+///   bounds themselves. nu_c does not jump when the first channel comes to its bound; where several are at theirs it may.
 /// - **Base held.** The inverse weights of the base are multiplied by beta(t): 0 during the hold, when the arm alone follows, then
 ///   u^2 (3 - 2 u) over the release.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,6 +86,16 @@ pub struct OuterLoop<T, const N: usize> {
     inverse_weights: Velocity<T, N>,
     base_hold: BaseHold<T>,
     bounds: RateBounds<T, N>,
+}
+
+impl<T: Real, const N: usize> OuterLoop<T, N> {
+    /// Whether this det(J J') is below the threshold at which damping sets in.
+    #[must_use]
+    #[inline]
+    pub fn is_near_singular(&self, manipulability_squared: T) -> bool {
+        let threshold = self.params.manipulability_threshold;
+        manipulability_squared < threshold * threshold
+    }
 }
 
 impl<T: Real, const N: usize> OuterLoop<T, N>
@@ -102,15 +117,7 @@ where
         &self.params
     }
 
-    /// Whether this det(J J') is below the threshold at which damping sets in.
-    #[must_use]
-    #[inline]
-    pub fn is_near_singular(&self, manipulability_squared: T) -> bool {
-        let threshold = self.params.manipulability_threshold;
-        manipulability_squared < threshold * threshold
-    }
-
-    /// Updates over which the base is held and released; a later one needs no number of its own.
+    /// Updates over which the base is held and released; from then on the number of an update does not matter.
     #[must_use]
     #[inline]
     pub const fn held_updates(&self) -> u32 {
@@ -139,12 +146,13 @@ where
 
         let task = self.params.posture_task(robot, q, posture, nu);
         let (z, dz) = (&task.velocity, &task.rate);
-        let normal = self.normal_matrix(&jacobian, task.damping_squared).factor();
-        let y = normal.solve(&(tip.velocity - jacobian.joint_product(z)));
+        let normal = normal_matrix(&jacobian, &self.inverse_weights, task.damping_squared);
+        let factor = normal.factor();
+        let y = factor.solve(&(tip.velocity - jacobian.joint_product(z)));
         let x = self.weighted(jacobian.transpose_product(&y));
         let x_turn = self.weighted(rate.transpose_product(&y));
         let drift = rate.product(&x) + jacobian.product(&x_turn) + y * task.damping_squared_rate;
-        let dy = normal.solve(&(tip.rate - rate.joint_product(z) - jacobian.joint_product(dz) - drift));
+        let dy = factor.solve(&(tip.rate - rate.joint_product(z) - jacobian.joint_product(dz) - drift));
         let dx = x_turn.plus(self.weighted(jacobian.transpose_product(&dy)));
         let mut output = OuterOutput {
             nu_c: with_joints_added(x, z),
@@ -159,8 +167,18 @@ where
         };
         let base_held = update < self.base_hold.updates();
         if base_held || self.bounds.exceeded(&q.joints, &output.nu_c) {
-            let base = if base_held { self.base_hold.share(update) } else { BaseShare::full() };
-            self.restrain(&Situation { robot, q, sines, nu, reference }, base, &mut output);
+            let mut solution = Solution {
+                jacobian,
+                jacobian_rate: rate,
+                weights: self.inverse_weights,
+                base_rates: (T::ZERO, T::ZERO),
+                damping_rate: task.damping_squared_rate,
+                factor,
+            };
+            if base_held {
+                self.hold_base(&mut solution, (&tip, &task), self.base_hold.share(update), &mut output);
+            }
+            self.restrain(&mut solution, (q, nu), &mut output);
         }
         output
     }
@@ -170,16 +188,20 @@ where
     fn weighted(&self, covector: Force<T, N>) -> Velocity<T, N> {
         channels_of(covector).zip(self.inverse_weights, |a, w| a * w)
     }
+}
 
-    /// A = J W^-1 J' + lambda^2 I.
-    #[inline]
-    fn normal_matrix(&self, jacobian: &TipJacobian<T, N>, damping_squared: T) -> Symmetric3<T> {
-        jacobian.fold_weighted(
-            &self.inverse_weights,
-            Symmetric3::scaled_identity(damping_squared),
-            |sum, column, weight| sum.plus_outer(column, weight),
-        )
-    }
+/// A = J S W^-1 J' + lambda^2 I for inverse weights S W^-1.
+#[inline]
+fn normal_matrix<T: Real, const N: usize>(
+    jacobian: &TipJacobian<T, N>,
+    inverse_weights: &Velocity<T, N>,
+    damping_squared: T,
+) -> Symmetric3<T> {
+    jacobian.fold_weighted(
+        inverse_weights,
+        Symmetric3::scaled_identity(damping_squared),
+        |sum, column, weight| sum.plus_outer(column, weight),
+    )
 }
 
 /// A covector read as a velocity, channel by channel.

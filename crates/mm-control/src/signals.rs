@@ -50,7 +50,8 @@ pub struct Input<T, const N: usize> {
 pub struct Status {
     /// A torque was cut to its limit.
     pub saturated: bool,
-    /// The manipulability of what is free to move is below its threshold, where the pseudo-inverse is damped if damping is on.
+    /// The manipulability is below its threshold, where the pseudo-inverse is damped if damping is on, or the channels free to move do not
+    /// suffice: the tip may fall behind.
     pub near_singular: bool,
     /// The correction of the tip's error was cut to its largest speed, or the base held to the speed up to which the model holds.
     pub speed_limited: bool,

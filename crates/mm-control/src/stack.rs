@@ -147,9 +147,9 @@ where
         gains.check()?;
         let estimator = Stage::try_new(estimator, period)?;
         let learns = law.learns() && gains.observer_bandwidth > T::ZERO;
-        if learns && gains.observer_bandwidth * period > T::ONE {
-            return Err(mm_model::ParamError::OutOfRange("observer_bandwidth_1_s").into());
-        }
+        let bandwidth = if learns { gains.observer_bandwidth } else { T::ZERO };
+        let outer = outer.checked()?;
+        check_rates(period, bandwidth, &outer)?;
         let half_range = robot.params().limits.joints.iter().fold(None, |least: Option<T>, (lo, hi)| {
             let half = (*hi - *lo) * T::HALF;
             Some(least.map_or(half, |other| other.min(half)))
@@ -162,7 +162,7 @@ where
             limit: gains.learning_limit,
             period,
         });
-        let outer = OuterLoop::new(outer.checked()?, &robot.params().limits, period);
+        let outer = OuterLoop::new(outer, &robot.params().limits, period);
         Ok(Self { robot, outer, law, observer, gains, period, estimator })
     }
 
@@ -365,7 +365,7 @@ where
         if let (Some(memory), false) = (drive.memory, saturated) {
             state.memory = memory;
         }
-        state.updates += u32::from(state.updates < self.outer.held_updates());
+        state.updates = state.updates.saturating_add(1);
         (state.integral, state.observer, state.held) = (integral, observer, saturated);
         Ok(Output {
             torque,
@@ -410,6 +410,26 @@ fn supervise<T: Real, const N: usize>(input: &Input<T, N>) -> Result<(), Control
     let gaps = gap(&reference.position) + gap(&reference.velocity) + gap(&reference.acceleration);
     if !(gaps == T::ZERO) {
         return Err(ControlError::NonFinite("reference"));
+    }
+    Ok(())
+}
+
+/// Checks that nothing is asked to decay within less than a period: e(k+1) = (1 - K T) e(k) overshoots beyond K T = 1 and grows beyond 2.
+fn check_rates<T: Real, const N: usize>(
+    period: T,
+    bandwidth: T,
+    outer: &OuterParams<T, N>,
+) -> Result<(), SetupError> {
+    let rates = [
+        (bandwidth, "observer_bandwidth_1_s"),
+        (outer.position_gain.iter().fold(T::ZERO, |most, gain| most.max(*gain)), "position_gain_1_s"),
+        (outer.sliding_gain.channels().fold(T::ZERO, |most, gain| most.max(gain)), "sliding_gain_1_s"),
+        (outer.posture_gain, "posture_gain_1_s"),
+    ];
+    for (rate, name) in rates {
+        if rate * period > T::ONE {
+            return Err(mm_model::ParamError::OutOfRange(name).into());
+        }
     }
     Ok(())
 }

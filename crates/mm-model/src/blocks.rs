@@ -129,6 +129,17 @@ macro_rules! block_vector {
             }
 
             /// A channel by its number in that order; none beyond the last.
+            #[must_use]
+            #[inline]
+            pub fn channel(&self, channel: usize) -> Option<T> {
+                match channel {
+                    0 => Some(self.$first),
+                    1 => Some(self.$second),
+                    _ => self.joints.get(channel - 2).copied(),
+                }
+            }
+
+            /// The same, to change it.
             #[inline]
             pub fn channel_mut(&mut self, channel: usize) -> Option<&mut T> {
                 match channel {

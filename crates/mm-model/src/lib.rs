@@ -58,6 +58,9 @@ mod tip;
 
 pub mod reference;
 
+/// Vectors in space are nalgebra's.
+pub use nalgebra;
+
 pub use angle::Angle;
 pub use arm::{ArmInertia, ArmPosture, InverseKinematics, JointSolution};
 pub use blocks::{Configuration, Force, Torque, Velocity};

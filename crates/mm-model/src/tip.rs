@@ -59,6 +59,17 @@ impl<T: Real, const N: usize> TipJacobian<T, N> {
         self.joints.iter().zip(&weights.joints).fold(base, |sum, (column, &weight)| fold(sum, column, weight))
     }
 
+    /// The column of a channel, by its number; none beyond the last.
+    #[must_use]
+    #[inline]
+    pub fn column(&self, channel: usize) -> Option<&Vector3<T>> {
+        match channel {
+            0 => Some(&self.forward),
+            1 => Some(&self.yaw_rate),
+            _ => self.joints.get(channel - 2),
+        }
+    }
+
     /// The columns in the order of the channels.
     #[inline]
     pub fn columns(&self) -> impl Iterator<Item = &Vector3<T>> {

@@ -35,13 +35,14 @@ pub(crate) struct Motion {
 /// | motion | what it leads through |
 /// | --- | --- |
 /// | cruise | the ordinary update: base and arm move, errors of some millimetres |
-/// | stretched | near a singularity: damping, climb of the manipulability |
+/// | stretched | the arm upright, near a singularity: damping, climb of the manipulability |
 /// | bound | one joint near its limit, asked to go on: its rate bounded, the others take over |
+/// | corner | two joints near their limits, the others take over what they can: the longest way there is |
 /// | limits | all joints near their limits and the base at its largest speed: everything held, one after the other |
 /// | far | a reference far away: correction at its largest speed, torques at their limits |
 /// | rest | nothing moves: the supervisor looks closely |
 /// | faulty | every third input is not a number, too old, too early, or too late: held, and stopped |
-pub(crate) const MOTIONS: [Motion; 7] = [
+pub(crate) const MOTIONS: [Motion; 8] = [
     Motion {
         name: "cruise",
         joints: [0.3, 1.0, -2.0],
@@ -53,7 +54,7 @@ pub(crate) const MOTIONS: [Motion; 7] = [
     },
     Motion {
         name: "stretched",
-        joints: [0.2, 0.7, -0.06],
+        joints: [0.2, 1.45, -0.06],
         swing: 0.05,
         speed: 0.1,
         ahead: 0.01,
@@ -66,6 +67,15 @@ pub(crate) const MOTIONS: [Motion; 7] = [
         swing: 0.005,
         speed: 0.2,
         ahead: 0.05,
+        reference_speed: 0.2,
+        faulty_every: 0,
+    },
+    Motion {
+        name: "corner",
+        joints: [-3.13, -0.34, 2.41],
+        swing: 0.005,
+        speed: 0.2,
+        ahead: 0.4,
         reference_speed: 0.2,
         faulty_every: 0,
     },

@@ -31,7 +31,7 @@ pub struct Outer<T> {
     pub damping_max: T,
     /// Largest speed that the correction of the tip's error asks for, m/s.
     pub correction_speed_limit_m_s: T,
-    /// Rate at which the joint rates asked for may approach a joint limit, 1/s; 0 sets no bound.
+    /// Rate at which the joint rates asked for may approach a joint limit, 1/s; 0 sets no bound, on the forward speed neither.
     pub joint_limit_rate_1_s: T,
     /// Time from the first update over which the base is held and the arm alone follows, s.
     pub base_hold_s: T,

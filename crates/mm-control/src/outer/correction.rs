@@ -48,6 +48,8 @@ fn shortened<T: Real>(v: &Vector3<T>, rate: &Vector3<T>, most: T) -> (Vector3<T>
     (direction * most, (turn - direction * dot(&direction, &turn)) * most)
 }
 
-fn dot<T: Real>(a: &Vector3<T>, b: &Vector3<T>) -> T {
+/// Inner product of two vectors, in a fixed order.
+#[inline]
+pub(super) fn dot<T: Real>(a: &Vector3<T>, b: &Vector3<T>) -> T {
     a.x * b.x + a.y * b.y + a.z * b.z
 }

@@ -34,8 +34,8 @@ pub struct OuterParams<T, const N: usize> {
     pub damping_max: T,
     /// Largest speed |K e| that the correction of the tip's error asks for, m/s; a large number switches the limit off.
     pub correction_speed_limit: T,
-    /// gamma: -gamma (q - lo) <= dq_c <= gamma (hi - q) holds for the joint rates asked for, 1/s. 0 sets no bound, on the forward
-    /// speed neither.
+    /// gamma: -gamma (q - lo) <= dq_c <= gamma (hi - q) holds for the joint rates asked for, 1/s; up to one over the control period it keeps
+    /// the joints from overshooting. 0 sets no bound, on the forward speed neither.
     pub joint_limit_rate: T,
     /// Time from the first update over which the base is held and the arm alone follows, s.
     pub base_hold: T,

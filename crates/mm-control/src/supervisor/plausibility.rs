@@ -76,7 +76,7 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
                 step: square(params.reference_step),
                 reference_acceleration: square(params.reference_acceleration),
             },
-            memory: T::ONE - T::ONE / T::from_u32(MEMORY),
+            memory: (T::ONE - period / T::from_f64(MEMORY)).max(T::ZERO),
         }
     }
 
@@ -224,7 +224,7 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
 
     /// How far each coordinate should have moved while it kept the very same bits, m and rad; zero for one that changed.
     ///
-    /// d <- (1 - 1/256) d + nu elapsed, signed, so that the noise of a velocity at rest goes to and fro. `strained` names the
+    /// d <- (1 - T/0.256 s) d + nu elapsed, signed, so that the noise of a velocity at rest goes to and fro. `strained` names the
     /// coordinates that are pushed hard and do not move: they are given 1/16 of the noise an update. Beyond the noise a doubt stays
     /// until the coordinate moves.
     pub(super) fn doubt(
@@ -272,8 +272,8 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
     }
 }
 
-/// Updates over which a doubt is remembered.
-const MEMORY: u32 = 256;
+/// Time over which a doubt is remembered, s.
+const MEMORY: f64 = 0.256;
 /// Updates after which a coordinate that is pushed hard and does not move counts as frozen.
 const STRAINED: u32 = 16;
 /// Longest time that a clock is believed to have passed at once, in periods.

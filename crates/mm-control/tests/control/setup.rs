@@ -99,6 +99,25 @@ fn an_observer_faster_than_its_clock_is_refused() {
 }
 
 #[test]
+fn a_gain_that_is_too_fast_for_the_period_is_refused() {
+    let build = |change: fn(&mut StackParams<f64, 3>, f64), rate: f64| {
+        let mut params = params();
+        change(&mut params, rate);
+        ControlStack::try_new(thesis::<f64>(), LawKind::Bfsmc, params).err()
+    };
+    let changes: [(&str, fn(&mut StackParams<f64, 3>, f64)); 3] = [
+        ("position_gain_1_s", |params, rate| params.outer.position_gain.y = rate),
+        ("sliding_gain_1_s", |params, rate| params.outer.sliding_gain.joints[1] = rate),
+        ("posture_gain_1_s", |params, rate| params.outer.posture_gain = rate),
+    ];
+    for (name, change) in changes {
+        let error = SetupError::Param(ParamError::OutOfRange(name));
+        assert_eq!(build(change, 1.001 / PERIOD), Some(error), "{name}");
+        assert_eq!(build(change, 0.999 / PERIOD), None, "{name}");
+    }
+}
+
+#[test]
 fn errors_read_as_sentences() {
     let inputs = [Variable { range: (f64::NAN, 1.0), ..SMOOTH.inputs[0] }];
     let fuzzy: SetupError =

@@ -52,14 +52,20 @@ pub(super) fn sin_cos(x: f32) -> (f32, f32) {
     if magnitude < TINY {
         return (x, 1.0);
     }
-    let reduced = if magnitude <= MODERATE {
-        reduce_moderate(magnitude)
-    } else if magnitude.is_finite() {
-        reduce_large(magnitude)
-    } else {
-        return (f32::NAN, f32::NAN);
-    };
-    let (sin, cos) = (sin_kernel(&reduced), cos_kernel(&reduced));
+    if magnitude <= MODERATE { turned(sign, &reduce_moderate(magnitude)) } else { beyond(sign, magnitude) }
+}
+
+/// Sine and cosine beyond [`MODERATE`], apart so that the usual way needs no stack.
+#[cold]
+#[inline(never)]
+fn beyond(sign: u32, magnitude: f32) -> (f32, f32) {
+    if magnitude.is_finite() { turned(sign, &reduce_large(magnitude)) } else { (f32::NAN, f32::NAN) }
+}
+
+/// Sine and cosine of a reduced angle of that sign.
+#[inline(always)]
+fn turned(sign: u32, reduced: &Reduced) -> (f32, f32) {
+    let (sin, cos) = (sin_kernel(reduced), cos_kernel(reduced));
     let (sin, cos) = if reduced.quarter & 1 == 0 { (sin, cos) } else { (cos, sin) };
     let sin_sign = sign ^ ((reduced.quarter & 2) << 30);
     let cos_sign = (reduced.quarter.wrapping_add(1) & 2) << 30;
@@ -94,8 +100,7 @@ fn reduce_moderate(x: f32) -> Reduced {
 /// With `x = m 2^e`, only the bits of `2/pi` from weight `2^(1-e)` on matter: those above turn `x` by whole turns.
 /// 96 of them times the 24 bits of `m` give the fraction of a turn to 2^-64, which leaves enough correct bits even for
 /// the angle closest to a multiple of a quarter turn.
-#[cold]
-#[inline(never)]
+#[inline]
 fn reduce_large(x: f32) -> Reduced {
     let bits = x.to_bits();
     let mantissa = u64::from((bits & 0x007F_FFFF) | 0x0080_0000);

@@ -143,9 +143,11 @@ pub(super) static NUMBERS: [Number; 75] = [
 /// The flags, after the numbers.
 pub(super) static FLAGS: [Flag; 9] = [
     flag("saturated", "a torque was limited", |s| s.saturated),
-    flag("near_singular", "manipulability below the threshold (damped if damping is on)", |s| {
-        s.near_singular
-    }),
+    flag(
+        "near_singular",
+        "manipulability below the threshold (damped if damping is on), or the free channels do not suffice",
+        |s| s.near_singular,
+    ),
     flag("speed_limited", "the outer loop bounded the correction's speed or the base's forward speed", |s| {
         s.speed_limited
     }),
