@@ -14,6 +14,8 @@ mod cli_sweep;
 mod cli_tune;
 mod figures;
 mod hardware;
+mod log_killed;
+mod log_recover;
 mod log_roundtrip;
 mod pil;
 mod reproduce;
