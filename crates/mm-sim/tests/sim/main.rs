@@ -15,6 +15,7 @@ mod cli_tune;
 mod figures;
 mod hardware;
 mod log_killed;
+mod log_layouts;
 mod log_recover;
 mod log_roundtrip;
 mod pil;
