@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::{LogError, LogSample, LogWriter, Outcome};
 
 /// How often a thread looks whether something waits to be flushed.
-const LOOK_PERIOD: Duration = Duration::from_millis(20);
+const LOOK_PERIOD: Duration = Duration::from_millis(10);
 
 /// A writer and a thread that flushes it: a run that stands still, waiting for a target or a plant of somebody else, has its last
 /// samples in the file too.

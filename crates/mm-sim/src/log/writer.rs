@@ -26,7 +26,7 @@ const CHUNK_BYTES: u64 = 1024 * 1024;
 const COMPRESSION_LEVEL: i32 = -1;
 /// Wall time after which what was written goes to the operating system. With the time until somebody looks again it stays below
 /// the 100 ms that a killed run loses at most.
-const FLUSH_PERIOD: Duration = Duration::from_millis(75);
+const FLUSH_PERIOD: Duration = Duration::from_millis(50);
 /// Simulated time between two messages on `/path`.
 const PATH_PERIOD_NS: u64 = 500_000_000;
 /// Most points of `/reference`.
