@@ -1,15 +1,27 @@
-//! Fuzzing: any text at all to the readers of `mm-fis`, with libFuzzer by cargo-fuzz, which needs nightly.
+//! Fuzzing: any text at all to the readers of `mm-fis`, any bytes to the reader of logs, with libFuzzer by cargo-fuzz, which needs nightly.
 
 use anyhow::{Result, ensure};
 
 use crate::shell::{answers, command_with, root, run};
 
-/// The targets, in `fuzz/fuzz_targets`, and their dictionaries.
-const TARGETS: [(&str, &str); 2] = [("read_fis", "fuzz/fis.dict"), ("read_fcl", "fuzz/fcl.dict")];
+/// A target in `fuzz/fuzz_targets`.
+struct Target {
+    name: &'static str,
+    dictionary: &'static str,
+    /// What the search starts from.
+    seeds: &'static [&'static str],
+    /// Longest input, bytes.
+    longest: u32,
+}
 
-/// Texts that the search starts from.
-const SEEDS: [&str; 3] =
-    ["crates/mm-fis/tests/corpus/good", "crates/mm-fis/tests/corpus/bad", "scenarios/fis"];
+const TEXTS: &[&str] =
+    &["crates/mm-fis/tests/corpus/good", "crates/mm-fis/tests/corpus/bad", "scenarios/fis"];
+
+const TARGETS: [Target; 3] = [
+    Target { name: "read_fis", dictionary: "fuzz/fis.dict", seeds: TEXTS, longest: 8192 },
+    Target { name: "read_fcl", dictionary: "fuzz/fcl.dict", seeds: TEXTS, longest: 8192 },
+    Target { name: "read_log", dictionary: "fuzz/log.dict", seeds: &["fuzz/seeds/log"], longest: 65536 },
+];
 
 /// Builds the targets and runs each for a time; fails on the first finding.
 ///
@@ -23,18 +35,19 @@ pub(crate) fn fuzz(seconds: u64) -> Result<()> {
         answers("cargo", &["+nightly", "fuzz", "--version"]),
         "no cargo-fuzz: `cargo install cargo-fuzz --locked`"
     );
-    for (target, _) in TARGETS {
-        run(&mut nightly(&["build", target]))?;
+    for target in &TARGETS {
+        run(&mut nightly(&["build", target.name]))?;
     }
-    for (target, dictionary) in TARGETS {
-        let corpus = format!("fuzz/corpus/{target}");
+    for Target { name, dictionary, seeds, longest } in TARGETS {
+        let corpus = format!("fuzz/corpus/{name}");
         std::fs::create_dir_all(root().join(&corpus))?;
         let time = format!("-max_total_time={seconds}");
         let dictionary = format!("-dict={}", root().join(dictionary).display());
-        let mut command = nightly(&["run", target, &corpus]);
-        command.args(SEEDS).args(["--", &time, &dictionary]);
+        let longest = format!("-max_len={longest}");
+        let mut command = nightly(&["run", name, &corpus]);
+        command.args(seeds).args(["--", &time, &dictionary, &longest]);
         command.args(["-fork=0", "-rss_limit_mb=2048", "-malloc_limit_mb=512", "-timeout=10"]);
-        run(command.args(["-max_len=8192", "-print_final_stats=1"]))?;
+        run(command.arg("-print_final_stats=1"))?;
     }
     Ok(())
 }

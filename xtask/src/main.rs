@@ -10,6 +10,7 @@ mod count;
 mod fuzz;
 mod fuzzy_peers;
 mod grid;
+mod log_kill;
 mod mmsim;
 mod parallel;
 mod pil;
@@ -38,7 +39,9 @@ cargo xtask <job>
   grid                maps the gains of bsmc on square-compare into docs/grid.csv [--mmsim FILE]
   claim               judges the thesis's claim on square-compare into docs/claim.csv [--mmsim FILE]
   bench-instructions  counts the instructions of each operation with callgrind [--json] [--target-cpu CPU]
-  fuzz                feeds any text to the readers of .fis and FCL, with nightly and cargo-fuzz [--seconds N: each target]
+  fuzz                feeds any text to the readers of .fis, FCL and logs, with nightly and cargo-fuzz [--seconds N: each target]
+  log-kill            kills ten runs at random moments, recovers their logs and has Python packages from PyPI and Rerun read them
+                      [--seed N] [--mmsim FILE]
   bench-targets       counts the instructions of the fuzzy engines on microcontrollers, under QEMU [--json] [--fallback]
   capi                checks mm_control.h, builds libmm_control.a, runs C programs here and under QEMU [--bless: writes the header]
                       [--target T: only the archive] [--full: all targets] [--fallback]
@@ -114,6 +117,13 @@ fn run() -> Result<ExitCode> {
             arguments.finish()?;
             let seconds = seconds.map_or(Ok(60), |seconds| seconds.parse());
             fuzz::fuzz(seconds.context("--seconds takes a whole number")?)?;
+            ExitCode::SUCCESS
+        }
+        "log-kill" => {
+            let (seed, command) = (arguments.value("--seed")?, arguments.value("--mmsim")?);
+            arguments.finish()?;
+            let seed = seed.map_or(Ok(0), |seed| seed.parse()).context("--seed takes a whole number")?;
+            log_kill::run_all(&mmsim::Mmsim::find(command, mmsim::Profile::Release)?, seed)?;
             ExitCode::SUCCESS
         }
         "bench-targets" => {

@@ -66,6 +66,13 @@ impl Mmsim {
         output.with_context(|| format!("cannot start {}", self.0.display()))
     }
 
+    /// A run that is to be started, with any arguments.
+    pub(crate) fn with(&self, arguments: &[&str]) -> Command {
+        let mut command = self.command();
+        command.args(arguments);
+        command
+    }
+
     fn command(&self) -> Command {
         command(&self.0)
     }

@@ -3,6 +3,7 @@
 mod compare;
 mod fis;
 mod interrupt;
+mod log;
 mod pil;
 mod progress;
 mod recorder;
@@ -74,6 +75,9 @@ enum Command {
     /// Evaluate, check, draw and compile fuzzy systems from .fis and .fcl files.
     #[command(subcommand)]
     Fis(fis::FisCommand),
+    /// Say what is in a log, and make a whole one of what a killed run left.
+    #[command(subcommand)]
+    Log(log::LogCommand),
 }
 
 /// What `run` and `compare` share.
@@ -206,6 +210,7 @@ where
         Some(Command::Pil(args)) => pil::pil(&args),
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
         Some(Command::Fis(command)) => Ok(fis::fis(&command)),
+        Some(Command::Log(command)) => Ok(log::log(&command)),
     });
     outcome.unwrap_or_else(|error| {
         let _ = error.print();

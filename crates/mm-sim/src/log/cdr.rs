@@ -68,6 +68,14 @@ impl Cdr {
         }
     }
 
+    /// Several `float32` fields in a row.
+    pub(super) fn f32s(&mut self, values: &[f32]) {
+        self.align(4);
+        for value in values {
+            self.buffer.extend_from_slice(&value.to_le_bytes());
+        }
+    }
+
     /// Number of elements that follow, as an unbounded sequence starts; far below 2^32 in every message here.
     pub(super) fn length(&mut self, elements: usize) {
         self.u32(u32::try_from(elements).unwrap_or(u32::MAX));

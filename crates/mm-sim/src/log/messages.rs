@@ -6,19 +6,19 @@ use super::frames::{BASE, MOVING_JOINTS, Transform, WORLD, quaternion};
 use super::sample::LogSample;
 use super::trail::TrailPoint;
 
-const NO_TURN: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+pub(super) const NO_TURN: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 /// A covariance that is not known, by the convention of ROS: all zeros.
 const NO_COVARIANCE: [f64; 36] = [0.0; 36];
 
 /// `builtin_interfaces/Time`. Seconds beyond 68 years stay at the largest number.
-fn time(cdr: &mut Cdr, stamp_ns: u64) {
+pub(super) fn time(cdr: &mut Cdr, stamp_ns: u64) {
     const NS: u64 = 1_000_000_000;
     cdr.i32(i32::try_from(stamp_ns / NS).unwrap_or(i32::MAX));
     cdr.u32(u32::try_from(stamp_ns % NS).unwrap_or_default());
 }
 
 /// `std_msgs/Header`.
-fn header(cdr: &mut Cdr, stamp_ns: u64, frame: &str) {
+pub(super) fn header(cdr: &mut Cdr, stamp_ns: u64, frame: &str) {
     time(cdr, stamp_ns);
     cdr.string(frame);
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use mm_model::{Force, Real, Robot, Torque, Velocity};
 
+use super::timely::TimelyWriter;
 use super::{LogError, LogHeader, LogSample, LogWriter, Outcome, RobotShape};
 use crate::VERSION;
 use crate::experiment::{Experiment, controller_name};
@@ -17,7 +18,7 @@ const PATH_POINTS: u32 = 2000;
 /// A log that takes the samples of a run.
 #[derive(Debug)]
 pub struct RunLog {
-    writer: LogWriter,
+    writer: TimelyWriter,
     half_track: f64,
     wheel_radius: f64,
     robot: Robot<f64, 3>,
@@ -54,7 +55,7 @@ impl RunLog {
             },
         )?;
         Ok(Self {
-            writer,
+            writer: TimelyWriter::new(writer),
             half_track: 0.5 * params.track_width,
             wheel_radius: params.wheel_radius,
             robot: *experiment.plant().robot(),

@@ -45,6 +45,22 @@ const TRANSFORM_STAMPED: (&str, &str) = (
     "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n",
 );
 
+const DURATION: (&str, &str) = ("builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n");
+const COLOR: (&str, &str) = ("std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n");
+const IMAGE: (&str, &str) =
+    ("sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n");
+const UV: (&str, &str) = ("visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n");
+const MESH: (&str, &str) = ("visualization_msgs/MeshFile", "string filename\nuint8[] data\n");
+const MARKER: (&str, &str) = (
+    "visualization_msgs/Marker",
+    "int32 ARROW=0\nint32 ADD=0\nint32 DELETE=2\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\n\
+     geometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\n\
+     builtin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\n\
+     std_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\n\
+     visualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\n\
+     visualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n",
+);
+
 /// `tf2_msgs/msg/TFMessage`.
 pub(super) fn tf_message() -> Schema {
     let uses = [TRANSFORM_STAMPED, HEADER, TIME, TRANSFORM, VECTOR3, QUATERNION];
@@ -78,6 +94,12 @@ pub(super) fn path() -> Schema {
     schema("nav_msgs/msg/Path", text, &[HEADER, TIME, POSE_STAMPED, POSE, POINT, QUATERNION])
 }
 
+/// `visualization_msgs/msg/MarkerArray`.
+pub(super) fn marker_array() -> Schema {
+    let uses = [MARKER, HEADER, TIME, POSE, POINT, QUATERNION, VECTOR3, COLOR, DURATION, IMAGE, UV, MESH];
+    schema("visualization_msgs/msg/MarkerArray", "visualization_msgs/Marker[] markers\n", &uses)
+}
+
 /// `mmsim_msgs/msg/Control`, our own.
 pub(super) fn control() -> Schema {
     let mut text = String::from("# One control instant, in SI units and radians.\nstd_msgs/Header header\n");
@@ -102,11 +124,12 @@ fn schema(name: &'static str, own: &str, uses: &[(&str, &str)]) -> Schema {
 
 #[cfg(test)]
 mod tests {
-    use super::{Schema, control, joint_state, odometry, path, string, tf_message};
+    use super::{Schema, joint_state};
+    use crate::log::topics::TOPICS;
 
     #[test]
     fn a_definition_brings_every_type_it_uses_once() {
-        for Schema { name, text } in [tf_message(), string(), joint_state(), odometry(), path(), control()] {
+        for Schema { name, text } in TOPICS.map(|(_, schema)| schema()) {
             let defined: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("MSG: ")).collect();
             for line in text.lines().filter(|line| !line.starts_with("MSG: ")) {
                 let Some((used, _)) = line.split_once(' ') else { continue };

@@ -1,10 +1,12 @@
 //! The writer: one call a sample, a file that survives the process.
 
+use super::arrows::Arrows;
 use super::cdr::Cdr;
 use super::error::LogError;
 use super::frames::{JOINTS, Joint, joints, transforms};
 use super::header::{LogHeader, Outcome};
 use super::sample::{LogSample, stamp_ns};
+use super::topics::TOPICS;
 use super::trail::Trail;
 use super::urdf::urdf;
 use super::{messages, schema};
@@ -20,8 +22,11 @@ use std::time::{Duration, Instant};
 
 /// Uncompressed bytes after which a chunk is closed.
 const CHUNK_BYTES: u64 = 1024 * 1024;
-/// Wall time after which what was written goes to the operating system: what a killed run loses at most.
-const FLUSH_PERIOD: Duration = Duration::from_millis(100);
+/// Level of zstd: the fastest but few, which the crate takes as an unsigned number. Beside 1 it makes files 3 % longer.
+const COMPRESSION_LEVEL: i32 = -1;
+/// Wall time after which what was written goes to the operating system. With the time until somebody looks again it stays below
+/// the 100 ms that a killed run loses at most.
+const FLUSH_PERIOD: Duration = Duration::from_millis(50);
 /// Simulated time between two messages on `/path`.
 const PATH_PERIOD_NS: u64 = 500_000_000;
 /// Most points of `/reference`.
@@ -37,6 +42,7 @@ struct Channels {
     odom: u16,
     control: u16,
     path: u16,
+    disturbance: u16,
 }
 
 /// Writes the log of one run.
@@ -54,8 +60,10 @@ pub struct LogWriter<W: Write = BufWriter<File>> {
     half_track_m: f64,
     cdr: Cdr,
     trail: Trail,
+    arrows: Arrows,
     next_path_ns: u64,
     last_flush: Instant,
+    is_flushed: bool,
     last_stamp_ns: u64,
     samples: u32,
 }
@@ -88,17 +96,8 @@ impl<W: Write> LogWriter<W> {
     /// [`LogError::Write`] if the sink refuses.
     pub fn to_sink(sink: W, path: impl AsRef<Path>, header: &LogHeader<'_>) -> Result<Self, LogError> {
         let path = path.as_ref().to_owned();
-        // Chunks are built in memory and written whole: a direct writer goes back to fill in a chunk's size, and
-        // until then the file is of no use to anybody.
         let open = || -> Result<_, McapError> {
-            let mut mcap = WriteOptions::new()
-                .profile(schema::PROFILE)
-                .library(concat!("mmsim ", env!("CARGO_PKG_VERSION")))
-                .chunk_size(Some(CHUNK_BYTES))
-                .disable_seeking(true)
-                .compression_level(1)
-                .compression_threads(0)
-                .create(NoSeek::new(sink))?;
+            let mut mcap = container(schema::PROFILE).create(NoSeek::new(sink))?;
             mcap.write_metadata(&header.metadata())?;
             attach(&mut mcap, 0, "scenario.toml", "application/toml", header.scenario_text)?;
             for (name, text) in header.files {
@@ -121,8 +120,10 @@ impl<W: Write> LogWriter<W> {
             half_track_m: header.robot.track_width_m / 2.0,
             cdr: Cdr::default(),
             trail: Trail::new(),
+            arrows: Arrows::default(),
             next_path_ns: 0,
             last_flush: Instant::now(),
+            is_flushed: true,
             last_stamp_ns: 0,
             samples: 0,
         };
@@ -139,6 +140,17 @@ impl<W: Write> LogWriter<W> {
     pub fn write(&mut self, sample: &LogSample) -> Result<(), LogError> {
         let written = self.write_sample(sample);
         self.named(written)
+    }
+
+    /// Gives what was written to the operating system if it is time to, as every [`write`](Self::write) does: for a caller whose
+    /// samples come slowly.
+    ///
+    /// # Errors
+    ///
+    /// [`LogError::Write`] if the file cannot be written to.
+    pub fn flush_if_due(&mut self) -> Result<(), LogError> {
+        let flushed = self.flush_in_time();
+        self.named(flushed)
     }
 
     /// Ends the log of a run that reached its end: the summary as JSON and the digest of the run.
@@ -192,9 +204,18 @@ impl<W: Write> LogWriter<W> {
         self.trail.offer(stamp, sample.tip);
         self.samples = self.samples.wrapping_add(1);
         self.last_stamp_ns = stamp;
-        if self.last_flush.elapsed() >= FLUSH_PERIOD {
+        if self.arrows.write(&mut self.cdr, stamp, &self.joints, &sample.disturbance) {
+            self.publish(channels.disturbance, sequence, stamp)?;
+        }
+        self.is_flushed = false;
+        self.flush_in_time()
+    }
+
+    fn flush_in_time(&mut self) -> Result<(), McapError> {
+        if !self.is_flushed && self.last_flush.elapsed() >= FLUSH_PERIOD {
             self.mcap.flush()?;
             self.last_flush = Instant::now();
+            self.is_flushed = true;
         }
         Ok(())
     }
@@ -227,6 +248,20 @@ impl<W: Write> LogWriter<W> {
     }
 }
 
+/// How the files of this crate are written.
+///
+/// Chunks are built in memory and written whole: a direct writer goes back to fill in a chunk's size, and until then the file is
+/// of no use to anybody.
+pub(super) fn container(profile: &str) -> WriteOptions {
+    WriteOptions::new()
+        .profile(profile)
+        .library(concat!("mmsim ", env!("CARGO_PKG_VERSION")))
+        .chunk_size(Some(CHUNK_BYTES))
+        .disable_seeking(true)
+        .compression_level(COMPRESSION_LEVEL.cast_unsigned())
+        .compression_threads(0)
+}
+
 fn attach<W: Write>(
     mcap: &mut mcap::Writer<NoSeek<W>>,
     stamp_ns: u64,
@@ -244,17 +279,12 @@ fn attach<W: Write>(
 }
 
 fn add_channels<W: Write>(mcap: &mut mcap::Writer<NoSeek<W>>) -> Result<Channels, McapError> {
-    let mut add = |topic: &str, schema: &schema::Schema| {
-        let id = mcap.add_schema(schema.name, schema::SCHEMA_ENCODING, schema.text.as_bytes())?;
-        mcap.add_channel(id, topic, schema::MESSAGE_ENCODING, &BTreeMap::new())
-    };
-    Ok(Channels {
-        robot_description: add("/robot_description", &schema::string())?,
-        reference: add("/reference", &schema::path())?,
-        tf: add("/tf", &schema::tf_message())?,
-        joint_states: add("/joint_states", &schema::joint_state())?,
-        odom: add("/odom", &schema::odometry())?,
-        control: add("/control", &schema::control())?,
-        path: add("/path", &schema::path())?,
-    })
+    let mut ids = [0; TOPICS.len()];
+    for (id, (topic, schema)) in ids.iter_mut().zip(&TOPICS) {
+        let schema = schema();
+        let schema = mcap.add_schema(schema.name, schema::SCHEMA_ENCODING, schema.text.as_bytes())?;
+        *id = mcap.add_channel(schema, topic, schema::MESSAGE_ENCODING, &BTreeMap::new())?;
+    }
+    let [robot_description, reference, tf, joint_states, odom, control, path, disturbance] = ids;
+    Ok(Channels { robot_description, reference, tf, joint_states, odom, control, path, disturbance })
 }
