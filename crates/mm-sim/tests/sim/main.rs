@@ -3,6 +3,7 @@
 #[expect(clippy::expect_used, clippy::panic, reason = "helpers of tests fail as tests do")]
 mod common {
     pub(crate) mod command;
+    pub(crate) mod scenario;
 }
 
 mod cli;
@@ -22,5 +23,8 @@ mod scenario_errors;
 mod scenario_faults;
 mod scenario_fuzzy;
 mod scenario_gains;
+mod scenario_include;
+mod scenario_malformed;
 mod scenario_reference;
+mod scenario_rules;
 mod scenario_set;
