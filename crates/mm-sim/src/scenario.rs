@@ -21,6 +21,7 @@ mod robot_toml;
 mod rules;
 mod schema;
 mod snapshot;
+mod starter;
 mod tree;
 mod types;
 mod waypoints;
@@ -37,6 +38,7 @@ pub use docs::markdown;
 pub use robot_toml::{robot_file_toml, robot_toml};
 pub use schema::schema;
 pub use snapshot::Snapshot;
+pub use starter::starter;
 pub use types::{
     Actuators, AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget,
     Estimator, EstimatorKind, Expect, Fault, FaultKind, FaultTarget, Friction, FuzzyEngine, Gains, GainsFor,

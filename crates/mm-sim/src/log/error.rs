@@ -23,3 +23,16 @@ pub enum LogError {
         source: mcap::McapError,
     },
 }
+
+impl LogError {
+    /// Whether the log went to a reader that has gone away.
+    #[must_use]
+    pub fn is_broken_pipe(&self) -> bool {
+        match self {
+            Self::Create { source, .. } | Self::Write { source: mcap::McapError::Io(source), .. } => {
+                source.kind() == std::io::ErrorKind::BrokenPipe
+            }
+            Self::Write { .. } => false,
+        }
+    }
+}

@@ -23,8 +23,8 @@ word.
 
 `include = \"base.toml\"` continues another file, or one of the bundled scenarios by its name: tables are merged key by key, `[[robot.link]]`
 entry by entry, a `[trajectory]` of another `kind` replaces the old one as a whole, and so does every other value and array. What a
-file names is sought beside that file. `mmsim scenario check FILE` says what is wrong with one,
-and editors with the schema say it while one types.
+file names is sought beside that file. `mmsim scenario new` writes a commented file to begin with, `mmsim scenario check FILE` says
+what is wrong with one, and editors with the schema say it while one types.
 ";
 
 /// Returns the reference page of the scenario format in Markdown, a table for each section.

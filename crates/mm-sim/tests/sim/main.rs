@@ -7,6 +7,7 @@ mod common {
 }
 
 mod cli;
+mod cli_comfort;
 mod cli_endings;
 mod cli_fis;
 mod cli_input;
