@@ -8,6 +8,7 @@ mod pil;
 mod progress;
 mod recorder;
 mod reproduce;
+mod robot;
 mod run;
 mod scenario;
 mod shells;
@@ -75,6 +76,9 @@ enum Command {
     /// Evaluate, check, draw and compile fuzzy systems from .fis and .fcl files.
     #[command(subcommand)]
     Fis(fis::FisCommand),
+    /// Take a robot from a URDF, or write one.
+    #[command(subcommand, after_help = examples::ROBOT)]
+    Robot(robot::RobotCommand),
     /// Print the completions of a shell.
     #[command(after_help = examples::COMPLETIONS)]
     Completions {
@@ -242,6 +246,7 @@ where
         Some(Command::Pil(args)) => pil::pil(&args),
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
         Some(Command::Fis(command)) => Ok(fis::fis(&command)),
+        Some(Command::Robot(command)) => Ok(robot::robot(&command)),
         Some(Command::Completions { shell }) => Ok(shells::completions(shell)),
         Some(Command::Man { out }) => Ok(shells::man(out.as_deref())),
     });

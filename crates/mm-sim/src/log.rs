@@ -35,5 +35,5 @@ pub use error::LogError;
 pub use header::{LogHeader, Outcome};
 pub use run_log::RunLog;
 pub use sample::LogSample;
-pub use urdf::{RobotShape, urdf};
+pub use urdf::{RobotShape, urdf, urdf_with_limits};
 pub use writer::LogWriter;

@@ -9,6 +9,7 @@ pub(super) const MMSIM: &str = "Examples:
   mmsim pil --scenario square-compare --target qemu:cortex-m4
   mmsim fis eval thesis -0.5 0.25
   mmsim scenario new -o mine.toml
+  mmsim robot import robot.urdf -o robot.toml
 
 Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed";
 
@@ -58,6 +59,19 @@ pub(super) const MAN: &str = "Examples:
   mmsim man | man -l -
   mmsim man --out ~/.local/share/man/man1";
 
+pub(super) const ROBOT: &str = "Examples:
+  mmsim robot import robot.urdf -o robot.toml
+  mmsim robot export --robot robot.toml -o robot.urdf";
+
+pub(super) const ROBOT_IMPORT: &str = "Examples:
+  mmsim robot import robot.urdf -o robot.toml
+  mmsim robot import robot.urdf --tip tool0 --fix wrist_joint --wheel-radius-m 0.1
+  mmsim --scenario square --set robot.file=robot.toml     runs with it";
+
+pub(super) const ROBOT_EXPORT: &str = "Examples:
+  mmsim robot export -o thesis.urdf                       the robot of the thesis
+  mmsim robot export --robot robot.toml -o robot.urdf";
+
 #[cfg(test)]
 mod tests {
     use clap::{CommandFactory as _, Parser as _};
@@ -86,6 +100,6 @@ mod tests {
             }
             tried += 1;
         }
-        assert!(tried > 36, "{tried} examples");
+        assert!(tried > 40, "{tried} examples");
     }
 }

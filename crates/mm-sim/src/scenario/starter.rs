@@ -24,7 +24,7 @@ control_period_s = 0.001 # the controller runs at 1 kHz
 seed = 0                 # of everything random
 
 [robot] # that the controller knows
-preset = "thesis" # or file = "robot.toml"
+preset = "thesis" # or file = "robot.toml"; `mmsim robot import` makes one from a URDF
 # base_mass_kg = 50.0 # any field that differs
 
 [plant] # how the simulated robot differs from it

@@ -8,8 +8,8 @@ use std::process::Stdio;
 
 use crate::common::command::Folder;
 
-const COMMANDS: [&str; 8] =
-    ["run", "compare", "reproduce", "sweep", "tune", "pil", "scenario new", "completions"];
+const COMMANDS: [&str; 9] =
+    ["run", "compare", "reproduce", "sweep", "tune", "pil", "scenario new", "completions", "robot import"];
 
 #[test]
 fn every_command_has_help_with_examples() {
@@ -21,7 +21,7 @@ fn every_command_has_help_with_examples() {
         "scenario show",
         "scenario check",
         "scenario schema",
-        
+        "robot export",
         "man",
         "fis eval",
         "fis check",
@@ -53,7 +53,7 @@ fn completions_and_manual_know_every_command() {
         assert!(page.contains(part), "{part:?} is not in the page:\n{page}");
     }
     folder.expect(0, &["man", "--out", "man"]);
-    for name in ["mmsim", "mmsim-compare", "mmsim-fis-eval", "mmsim-scenario-new"] {
+    for name in ["mmsim", "mmsim-compare", "mmsim-fis-eval", "mmsim-scenario-new", "mmsim-robot-import"] {
         assert!(folder.path(&format!("man/{name}.1")).is_file(), "{name}.1");
     }
 }

@@ -19,6 +19,8 @@ mod hardware;
 mod log_roundtrip;
 mod pil;
 mod reproduce;
+mod robot_round_trip;
+mod robot_urdf;
 mod scenario_bundled;
 mod scenario_errors;
 mod scenario_faults;
