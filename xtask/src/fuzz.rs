@@ -1,15 +1,19 @@
-//! Fuzzing: any text at all to the readers of `mm-fis`, with libFuzzer by cargo-fuzz, which needs nightly.
+//! Fuzzing: any text at all to the readers of `mm-fis` and of scenarios, with libFuzzer by cargo-fuzz, which needs nightly.
 
 use anyhow::{Result, ensure};
 
 use crate::shell::{answers, command_with, root, run};
 
-/// The targets, in `fuzz/fuzz_targets`, and their dictionaries.
-const TARGETS: [(&str, &str); 2] = [("read_fis", "fuzz/fis.dict"), ("read_fcl", "fuzz/fcl.dict")];
+/// The targets, in `fuzz/fuzz_targets`, their dictionaries, and the texts that the search starts from.
+const TARGETS: [(&str, &str, &[&str]); 3] = [
+    ("read_fis", "fuzz/fis.dict", SYSTEMS),
+    ("read_fcl", "fuzz/fcl.dict", SYSTEMS),
+    ("read_scenario", "fuzz/scenario.dict", &["scenarios"]),
+];
 
-/// Texts that the search starts from.
-const SEEDS: [&str; 3] =
-    ["crates/mm-fis/tests/corpus/good", "crates/mm-fis/tests/corpus/bad", "scenarios/fis"];
+/// Fuzzy systems.
+const SYSTEMS: &[&str] =
+    &["crates/mm-fis/tests/corpus/good", "crates/mm-fis/tests/corpus/bad", "scenarios/fis"];
 
 /// Builds the targets and runs each for a time; fails on the first finding.
 ///
@@ -23,16 +27,16 @@ pub(crate) fn fuzz(seconds: u64) -> Result<()> {
         answers("cargo", &["+nightly", "fuzz", "--version"]),
         "no cargo-fuzz: `cargo install cargo-fuzz --locked`"
     );
-    for (target, _) in TARGETS {
+    for (target, ..) in TARGETS {
         run(&mut nightly(&["build", target]))?;
     }
-    for (target, dictionary) in TARGETS {
+    for (target, dictionary, seeds) in TARGETS {
         let corpus = format!("fuzz/corpus/{target}");
         std::fs::create_dir_all(root().join(&corpus))?;
         let time = format!("-max_total_time={seconds}");
         let dictionary = format!("-dict={}", root().join(dictionary).display());
         let mut command = nightly(&["run", target, &corpus]);
-        command.args(SEEDS).args(["--", &time, &dictionary]);
+        command.args(seeds).args(["--", &time, &dictionary]);
         command.args(["-fork=0", "-rss_limit_mb=2048", "-malloc_limit_mb=512", "-timeout=10"]);
         run(command.args(["-max_len=8192", "-print_final_stats=1"]))?;
     }
