@@ -1,4 +1,5 @@
-//! Fuzzing: any text at all to the readers of `mm-fis`, any bytes to the reader of logs, with libFuzzer by cargo-fuzz, which needs nightly.
+//! Fuzzing: any text at all to the readers of `mm-fis` and of scenarios, any bytes to the reader of logs, with libFuzzer by cargo-fuzz, which
+//! needs nightly.
 
 use anyhow::{Result, ensure};
 
@@ -17,9 +18,10 @@ struct Target {
 const TEXTS: &[&str] =
     &["crates/mm-fis/tests/corpus/good", "crates/mm-fis/tests/corpus/bad", "scenarios/fis"];
 
-const TARGETS: [Target; 3] = [
+const TARGETS: [Target; 4] = [
     Target { name: "read_fis", dictionary: "fuzz/fis.dict", seeds: TEXTS, longest: 8192 },
     Target { name: "read_fcl", dictionary: "fuzz/fcl.dict", seeds: TEXTS, longest: 8192 },
+    Target { name: "read_scenario", dictionary: "fuzz/scenario.dict", seeds: &["scenarios"], longest: 8192 },
     Target { name: "read_log", dictionary: "fuzz/log.dict", seeds: &["fuzz/seeds/log"], longest: 65536 },
 ];
 

@@ -1,6 +1,7 @@
 //! The command line: `mmsim`.
 
 mod compare;
+mod examples;
 mod fis;
 mod interrupt;
 mod log;
@@ -8,8 +9,11 @@ mod pil;
 mod progress;
 mod recorder;
 mod reproduce;
+mod robot;
 mod run;
 mod scenario;
+mod shells;
+mod sparkline;
 mod sweep;
 mod table;
 mod tune;
@@ -39,15 +43,7 @@ pub enum Exit {
 /// Simulate robust trajectory tracking of a mobile manipulator.
 #[derive(Debug, Parser)]
 #[command(name = "mmsim", version, args_conflicts_with_subcommands = true, max_term_width = 110)]
-#[command(after_help = "Examples:\n  \
-    mmsim --scenario square.toml\n  \
-    mmsim --scenario square --controller bsmc --set plant.mass_scale=1.25 --json\n  \
-    mmsim compare --scenario square-compare --controllers bsmc,bsmc-sat,bfsmc-thesis,bfsmc\n  \
-    mmsim sweep --scenario square-compare --samples 1000\n  \
-    mmsim tune --scenario square-compare --controller bfsmc -o gains.toml\n  \
-    mmsim pil --scenario square-compare --target qemu:cortex-m4\n  \
-    mmsim fis eval thesis -0.5 0.25\n\n\
-    Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed")]
+#[command(after_help = examples::MMSIM)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -58,19 +54,25 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Run one scenario (what `mmsim --scenario` does too).
+    #[command(after_help = examples::RUN)]
     Run(RunArgs),
     /// Run one scenario with several controllers and compare them in one table.
+    #[command(after_help = examples::COMPARE)]
     Compare(CompareArgs),
     /// Run all experiments of the thesis: its figures, and its numbers beside ours.
+    #[command(after_help = examples::REPRODUCE)]
     Reproduce(ReproduceArgs),
     /// Run many random samples of one scenario: statistics, failures and how to run each again.
+    #[command(after_help = examples::SWEEP)]
     Sweep(sweep::SweepArgs),
     /// Search for the gains that cost least on a scenario and write them as TOML.
+    #[command(after_help = examples::TUNE)]
     Tune(tune::TuneArgs),
     /// Run a scenario with the controller on a microcontroller, and compare it with the one here, bit for bit.
+    #[command(after_help = examples::PIL)]
     Pil(pil::PilArgs),
-    /// List, show and check scenario files, or print their JSON schema.
-    #[command(subcommand)]
+    /// Begin, list, show and check scenario files, or print their JSON schema.
+    #[command(subcommand, after_help = examples::SCENARIO)]
     Scenario(ScenarioCommand),
     /// Evaluate, check, draw and compile fuzzy systems from .fis and .fcl files.
     #[command(subcommand)]
@@ -78,6 +80,23 @@ enum Command {
     /// Say what is in a log, and make a whole one of what a killed run left.
     #[command(subcommand)]
     Log(log::LogCommand),
+    /// Take a robot from a URDF, or write one.
+    #[command(subcommand, after_help = examples::ROBOT)]
+    Robot(robot::RobotCommand),
+    /// Print the completions of a shell.
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions {
+        /// The shell.
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page, or write those of all commands to a folder.
+    #[command(after_help = examples::MAN)]
+    Man {
+        /// Folder for one page a command.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
 }
 
 /// What `run` and `compare` share.
@@ -92,7 +111,7 @@ struct Common {
     /// Seed of everything random in the scenario.
     #[arg(long, allow_hyphen_values = true)]
     seed: Option<u64>,
-    /// Folder for the log.
+    /// Folder for the log; `-` writes it to standard output, and nothing else there.
     #[arg(long, value_name = "DIR", default_value = "./out")]
     out: PathBuf,
     /// Write no log.
@@ -145,19 +164,26 @@ struct ReproduceArgs {
 
 #[derive(Debug, Subcommand)]
 enum ScenarioCommand {
+    /// Write a commented scenario to begin with, which runs as it is.
+    #[command(after_help = examples::SCENARIO_NEW)]
+    New(scenario::NewArgs),
     /// List the bundled scenarios.
+    #[command(after_help = "Example:\n  mmsim scenario list")]
     List,
     /// Print a bundled scenario.
+    #[command(after_help = "Example:\n  mmsim scenario show square > mine.toml")]
     Show {
         /// Its name.
         name: String,
     },
     /// Check a scenario file without running it.
+    #[command(after_help = "Example:\n  mmsim scenario check mine.toml")]
     Check {
         /// The file, or the name of a bundled scenario.
         file: String,
     },
     /// Print the JSON schema of scenario files.
+    #[command(after_help = "Example:\n  mmsim scenario schema > scenario.schema.json")]
     Schema,
 }
 
@@ -180,6 +206,20 @@ impl Common {
     /// The scenario's name; without one, a usage error.
     fn scenario(&self) -> Result<&str, clap::Error> {
         needs_scenario(self.scenario.as_deref())
+    }
+
+    /// Whether the log goes to standard output.
+    fn logs_to_stdout(&self) -> bool {
+        !self.no_log && self.out.as_os_str() == "-"
+    }
+
+    /// Refuses `--out -` where standard output is needed for something else.
+    fn refuse_stdout(&self, why: &str) -> Result<(), clap::Error> {
+        if self.logs_to_stdout() {
+            let message = format!("--out - {why}; name a folder, or take --no-log");
+            return Err(Cli::command().error(ErrorKind::ArgumentConflict, message));
+        }
+        Ok(())
     }
 
     /// The edits of the scenario that the options stand for.
@@ -211,6 +251,9 @@ where
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
         Some(Command::Fis(command)) => Ok(fis::fis(&command)),
         Some(Command::Log(command)) => Ok(log::log(&command)),
+        Some(Command::Robot(command)) => Ok(robot::robot(&command)),
+        Some(Command::Completions { shell }) => Ok(shells::completions(shell)),
+        Some(Command::Man { out }) => Ok(shells::man(out.as_deref())),
     });
     outcome.unwrap_or_else(|error| {
         let _ = error.print();
@@ -219,11 +262,16 @@ where
     })
 }
 
-/// Writes a result to standard output; a reader that has gone away is no failure, a full disk is.
+/// Writes a result to standard output, as a line; a reader that has gone away is no failure, a full disk is.
 fn print(text: &str) -> Exit {
+    print_bytes(format!("{text}\n").as_bytes())
+}
+
+/// The same with nothing added.
+fn print_bytes(bytes: &[u8]) -> Exit {
     use std::io::Write as _;
     let mut out = std::io::stdout().lock();
-    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+    match out.write_all(bytes).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             complain(&format_args!("error: cannot write the result: {error}"));
             Exit::Failed

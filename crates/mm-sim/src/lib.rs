@@ -21,6 +21,7 @@ pub mod parallel;
 pub mod plant;
 pub mod random;
 pub mod reproduce;
+pub mod robot;
 pub mod scenario;
 mod shell;
 pub mod simulation;

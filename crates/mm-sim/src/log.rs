@@ -46,5 +46,5 @@ pub use run_log::RunLog;
 pub use sample::LogSample;
 pub use scan::{Damage, End, Scan};
 pub use topics::topics;
-pub use urdf::{RobotShape, urdf};
+pub use urdf::{RobotShape, urdf, urdf_with_limits};
 pub use writer::LogWriter;

@@ -12,13 +12,16 @@ mod bundled;
 mod check;
 mod diagnostic;
 mod docs;
+mod files;
 mod fuzzy;
 mod gains;
+mod include;
 pub(crate) mod nearest;
 mod robot_toml;
 mod rules;
 mod schema;
 mod snapshot;
+mod starter;
 mod tree;
 mod types;
 mod waypoints;
@@ -26,20 +29,22 @@ mod waypoints;
 use std::path::{Path, PathBuf};
 
 use diagnostic::Source;
-use tree::{Node, Table, Value};
+use files::{Files, included, linked};
+use tree::{Node, Value};
 
 pub use bundled::bundled;
 pub use diagnostic::{Problem, ScenarioError};
 pub use docs::markdown;
-pub use robot_toml::robot_toml;
+pub use robot_toml::{robot_file_toml, robot_toml};
 pub use schema::schema;
 pub use snapshot::Snapshot;
+pub use starter::starter;
 pub use types::{
     Actuators, AxesAndNorm, AxesAndSum, Bounds, Controller, ControllerKind, Disturbance, DisturbanceTarget,
     Estimator, EstimatorKind, Expect, Fault, FaultKind, FaultTarget, Friction, FuzzyEngine, Gains, GainsFor,
-    Initial, Integrator, Link, Misprints, Motion, Motor, Motors, Outer, Peaks, PerAxis, PerChannel, Plant,
-    PlantScale, PoseSource, Preset, Robot, RobotFields, ScenarioFile, Segment, Sensors, Shape, Simulation,
-    Supervisor, Sweep, TipStart, Totals, Trajectory, Tune, WaypointPath,
+    Include, Initial, Integrator, Link, Misprints, Motion, Motor, Motors, Outer, Peaks, PerAxis, PerChannel,
+    Plant, PlantScale, PoseSource, Preset, Robot, RobotFields, ScenarioFile, Segment, Sensors, Shape,
+    Simulation, Supervisor, Sweep, TipStart, Totals, Trajectory, Tune, WaypointPath,
 };
 
 /// The name that an argument of the command line has in messages.
@@ -75,7 +80,7 @@ impl Loaded {
     pub(crate) fn gains_of_file(&self) -> Vec<(&str, String)> {
         let is_file = |node: &Node| {
             let of = self.sources.get(node.place.source);
-            node.place.source > 0 && of.is_some_and(|source| source.name != SET_NAME)
+            of.is_some_and(|source| !source.is_own())
         };
         let gains = self.root.find("controller.gains").and_then(Node::as_table);
         gains
@@ -153,7 +158,7 @@ impl Loaded {
 pub fn load(spec: &str, sets: &[String]) -> Result<Loaded, ScenarioError> {
     let path = Path::new(spec);
     if path.exists() && !path.is_dir() {
-        let text = read(path, "scenario", spec)?;
+        let text = read(path, spec)?;
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         return assemble((spec, &text), &Files::of(&folder), sets);
     }
@@ -182,39 +187,37 @@ pub fn from_text(name: &str, text: &str, sets: &[String]) -> Result<Loaded, Scen
     assemble((name, text), &Files::of(Path::new("")), sets)
 }
 
-/// The text of a file of a format; what is wrong with it otherwise, with the place of the first byte that is no text.
-fn read_text(path: &Path, format: &str) -> Result<String, String> {
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|error| {
-        let good = error.as_bytes().get(..error.utf8_error().valid_up_to()).unwrap_or_default();
-        let line = good.iter().filter(|&&byte| byte == b'\n').count() + 1;
-        let column = good.iter().rev().take_while(|&&byte| byte != b'\n').count() + 1;
-        format!("line {line}, column {column} (in bytes): not UTF-8; expected a {format} text")
-    })
-}
-
-fn read(path: &Path, what: &str, name: &str) -> Result<String, ScenarioError> {
-    read_text(path, "TOML").map_err(|error| {
-        let problem = Problem::without_place(format!("cannot read {what} `{name}`: {error}"));
+/// The text of the scenario file.
+fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
+    let bytes = std::fs::read(path).map_err(|error| {
+        let problem = Problem::without_place(format!("cannot read scenario `{name}`: {error}"));
         ScenarioError::new(&[], vec![problem])
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        // What is no character is shown as one of three bytes.
+        let start = error.utf8_error().valid_up_to();
+        let place = tree::Place { source: 0, span: start..start + char::REPLACEMENT_CHARACTER.len_utf8() };
+        let source = Source::new(name, String::from_utf8_lossy(error.as_bytes()));
+        ScenarioError::new(&[source], vec![Problem::new("", "not UTF-8", place).expected("a TOML text")])
     })
 }
 
 /// Parses, edits, checks and converts.
 fn assemble((name, text): (&str, &str), files: &Files<'_>, sets: &[String]) -> Result<Loaded, ScenarioError> {
-    let mut sources = vec![Source { name: name.to_owned(), text: text.to_owned() }];
-    let mut root = parse(&sources, 0)?;
+    let mut sources = vec![Source::new(name, text).within(files.folder)];
+    let mut root = parse(&sources, 0, &schema::SCENARIO)?;
     let mut problems = Vec::new();
-    for argument in sets {
-        let source = sources.len();
-        sources.push(Source { name: SET_NAME.to_owned(), text: argument.clone() });
-        if let Err(problem) = tree::set(&mut root, source, argument) {
+    sources.extend(sets.iter().map(|argument| Source::new(SET_NAME, argument)));
+    include::resolve(&mut root, &mut sources, files, &mut problems)?;
+    for (index, argument) in sets.iter().enumerate() {
+        if let Err(problem) = tree::set(&mut root, index + 1, argument) {
             problems.push(*problem);
         }
     }
+    include::refuse_edit(&root, &mut problems);
     problems.extend(check::check(&sources, &schema::SCENARIO, &root));
     problems.extend(rules::check(&root));
-    robot_file(&mut root, &mut sources, files, &mut problems)?;
+    files::robot(&mut root, &mut sources, files, &mut problems)?;
     waypoints::file(&mut root, &mut sources, files, &mut problems)?;
     gains::resolve(&mut root, &mut sources, files, &mut problems)?;
     let fis = fuzzy::file(&root, &mut sources, files, &mut problems);
@@ -228,15 +231,30 @@ fn assemble((name, text): (&str, &str), files: &Files<'_>, sets: &[String]) -> R
     Ok(Loaded { file, fis, sources, root, folder: files.folder.to_path_buf(), sets: sets.to_vec() })
 }
 
-fn parse(sources: &[Source], index: usize) -> Result<Node, ScenarioError> {
+/// Parses one of the texts; where it is no TOML, what stands before is checked as well, but for keys that may follow.
+fn parse(sources: &[Source], index: usize, schema: &serde_json::Value) -> Result<Node, ScenarioError> {
     let text = sources.get(index).map_or("", |source| &source.text);
-    tree::parse(index, text).map_err(|errors| {
-        let problem = |(message, span)| {
-            Problem::new("", format!("not TOML: {message}"), tree::Place { source: index, span })
-                .expected("valid TOML")
-        };
-        ScenarioError::new(sources, errors.into_iter().map(problem).collect())
-    })
+    let (root, mut errors) = tree::parse(index, text);
+    // Of a line that went wrong, the first error says why.
+    errors.sort_by_key(|(_, span)| span.start);
+    let mut next_line = 0;
+    errors.retain(|(_, span)| {
+        let is_first = span.start >= next_line;
+        if is_first {
+            let end = text.as_bytes().iter().skip(span.start).position(|&byte| byte == b'\n');
+            next_line = end.map_or(usize::MAX, |end| span.start + end + 1);
+        }
+        is_first
+    });
+    let Some(first) = errors.first().map(|(_, span)| span.start) else { return Ok(root) };
+    let line_start = text.as_bytes().iter().take(first).rposition(|&byte| byte == b'\n').unwrap_or(0);
+    let mut problems = check::check(sources, schema, &root);
+    problems.retain(|problem| problem.is_before(index, line_start) && problem.message() != check::MISSING);
+    problems.extend(errors.into_iter().map(|(message, span)| {
+        Problem::new("", format!("not TOML: {message}"), tree::Place { source: index, span })
+            .expected("valid TOML")
+    }));
+    Err(ScenarioError::new(sources, problems))
 }
 
 /// A gain as TOML on one line.
@@ -248,82 +266,4 @@ fn inline(node: &Node) -> String {
     let entries: Vec<_> =
         table.iter().map(|(key, entry)| format!("{key} = {}", inline(&entry.node))).collect();
     format!("{{{}}}", entries.join(", "))
-}
-
-/// Where the files are that a scenario names.
-struct Files<'a> {
-    /// Folder of the scenario file.
-    folder: &'a Path,
-    /// Texts that were read before.
-    known: &'a [Source],
-    /// Last of the texts, the file and its edits, that were there when they were read.
-    settled: usize,
-}
-
-impl<'a> Files<'a> {
-    /// Files of which none was read before.
-    const fn of(folder: &'a Path) -> Self {
-        Self { folder, known: &[], settled: 0 }
-    }
-}
-
-/// Reads a file that a key names: from the folder of the scenario file or, named by an argument, from the working directory.
-fn linked(key: &Node, name: &str, files: &Files<'_>, format: &str) -> Result<Source, String> {
-    let is_in_scenario = key.place.source == 0;
-    let path = if is_in_scenario { files.folder.join(name) } else { PathBuf::from(name) };
-    let shown = path.display().to_string();
-    // The texts of the file and its edits come first, those of files that they name after them.
-    let read_before = files.known.iter().skip(files.settled + 1).find(|source| source.name == shown);
-    if let Some(source) = read_before.filter(|_| key.place.source <= files.settled) {
-        return Ok(source.clone());
-    }
-    match read_text(&path, format) {
-        Ok(text) => Ok(Source { name: shown, text }),
-        Err(error) => Err(format!("cannot read `{shown}`: {error}")),
-    }
-}
-
-/// Parses the TOML file that a key names, if there is one.
-fn included(
-    root: &Node,
-    (key, what): (&str, &str),
-    sources: &mut Vec<Source>,
-    files: &Files<'_>,
-    problems: &mut Vec<Problem>,
-) -> Result<Option<Node>, ScenarioError> {
-    let Some(file) = root.find(key) else { return Ok(None) };
-    let Some(name) = file.as_str() else { return Ok(None) };
-    let source = sources.len();
-    match linked(file, name, files, "TOML") {
-        Ok(linked) => sources.push(linked),
-        Err(message) => {
-            problems.push(Problem::new(key, message, file.place.clone()).expected(what));
-            return Ok(None);
-        }
-    }
-    parse(sources, source).map(Some)
-}
-
-/// Reads the file that `robot.file` names and lays the scenario's own fields over it.
-fn robot_file(
-    root: &mut Node,
-    sources: &mut Vec<Source>,
-    files: &Files<'_>,
-    problems: &mut Vec<Problem>,
-) -> Result<(), ScenarioError> {
-    let Some(mut below) = included(root, ("robot.file", "a robot file"), sources, files, problems)? else {
-        return Ok(());
-    };
-    let found = check::check(sources, &schema::ROBOT, &below);
-    problems.extend(found);
-    problems.extend(rules::check_robot(&below));
-    let (Value::Table(fields), Value::Table(entries)) = (&mut below.value, &mut root.value) else {
-        return Ok(());
-    };
-    if let Some(Value::Table(robot)) = entries.get_mut("robot").map(|entry| &mut entry.node.value) {
-        let own: Table = std::mem::take(robot);
-        tree::overlay(fields, own);
-        *robot = std::mem::take(fields);
-    }
-    Ok(())
 }

@@ -7,7 +7,7 @@ use clap::CommandFactory as _;
 use clap::error::ErrorKind;
 use serde::Serialize;
 
-use super::run::{complain_of, execute, log_path, prepare, with_causes};
+use super::run::{Ran, complain_of, execute, log_path, prepare, with_causes};
 use super::{Cli, CompareArgs, Exit, complain, print, table};
 use crate::experiment::Experiment;
 use crate::metrics::PerAxisSum;
@@ -27,6 +27,7 @@ struct Comparison<'a> {
 pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
     let common = &args.common;
     let spec = common.scenario()?;
+    common.refuse_stdout("is for one run")?;
     if let Some(kind) = named_twice(&args.controllers) {
         // Two runs at once would write one log.
         let message = format!("controller `{kind}` is named twice in --controllers");
@@ -59,7 +60,7 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
     };
     for outcome in pool.map(&jobs, |(ready, log)| execute(ready, log.clone(), false)) {
         match outcome {
-            Ok((summary, ended)) => {
+            Ok(Ran { summary, exit: ended, .. }) => {
                 exit = exit.max(ended);
                 endings.push(ended);
                 runs.push(summary);

@@ -15,7 +15,7 @@ use clap::error::ErrorKind;
 use mm_link::{Kind, Ready, Scalar, Setup};
 
 use super::recorder::RunRecorder;
-use super::run::{complain_of, execute_with, log_path, prepare, with_causes};
+use super::run::{Ran, complain_of, execute_with, log_path, prepare, with_causes};
 use super::{CommandFactory as _, Common, Exit, complain, kinds, print};
 use crate::experiment::{self, Experiment};
 use crate::log::LogError;
@@ -79,6 +79,7 @@ impl Target {
 /// Runs plant and log here and the controller on a target.
 pub(super) fn pil(args: &PilArgs) -> Result<Exit, clap::Error> {
     let spec = args.common.scenario()?;
+    args.common.refuse_stdout("leaves no room for the report")?;
     let usage = |message: String| super::Cli::command().error(ErrorKind::InvalidValue, message);
     let target = Target::parse(&args.target).ok_or_else(|| {
         let known: Vec<_> = MACHINES.iter().map(|machine| format!("qemu:{}", machine.name)).collect();
@@ -135,7 +136,7 @@ fn compare<T: Scalar>(
     let run = |recorder: &mut RunRecorder| -> Result<RunResult, LogError> {
         simulation.run_with(recorder, &mut twin)
     };
-    let (summary, exit) = execute_with(prepared, path, !(common.quiet || common.json), run)?;
+    let Ran { summary, exit, .. } = execute_with(prepared, path, !(common.quiet || common.json), run)?;
     let Twin { tally, failed: link_error, .. } = twin;
     let injected = client.injector.take().map(|injector| injector.injected);
     let target_frames = client.ask((Kind::Query, Kind::Report), ("a query", 0), &()).ok();

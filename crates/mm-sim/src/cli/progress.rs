@@ -11,7 +11,9 @@ pub(super) fn bar(show: bool, done: u64, total: u64) -> ProgressBar {
         return ProgressBar::hidden();
     }
     let bar = ProgressBar::new(total).with_position(done);
-    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {pos}/{len} {elapsed} left {eta}") {
+    if let Ok(style) =
+        ProgressStyle::with_template("{msg} [{bar:40}] {pos}/{len} {per_sec} {elapsed} left {eta}")
+    {
         bar.set_style(style.progress_chars("=> "));
     }
     bar.reset_eta();

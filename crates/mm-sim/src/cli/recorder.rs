@@ -2,11 +2,13 @@
 
 use std::io::IsTerminal as _;
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::interrupt;
+use super::sparkline::Trace;
+use super::table::short;
 use crate::experiment::Experiment;
 use crate::log::{LogError, Outcome, RunLog};
 use crate::scenario::Loaded;
@@ -20,6 +22,8 @@ pub(super) struct RunRecorder {
     log: Option<RunLog>,
     progress: ProgressBar,
     duration: f64,
+    begin: Instant,
+    error: Trace,
 }
 
 impl RunRecorder {
@@ -35,12 +39,19 @@ impl RunRecorder {
             log: path.map(|path| RunLog::create(loaded, experiment, path)).transpose()?,
             progress: progress_bar(show_progress),
             duration: experiment.clock().duration(),
+            begin: Instant::now(),
+            error: Trace::new(experiment.clock().duration()),
         })
     }
 
     /// Ends the progress bar.
     pub(super) fn clear(&self) {
         self.progress.finish_and_clear();
+    }
+
+    /// The size of the error over time.
+    pub(super) fn error(&self) -> Option<String> {
+        self.error.line()
     }
 
     /// Finishes the log, if there is one.
@@ -59,6 +70,7 @@ impl Recorder for RunRecorder {
         if let Some(log) = &mut self.log {
             log.record(sample)?;
         }
+        self.error.take(sample.t, (sample.tip - sample.reference.position).norm());
         if !self.progress.is_hidden() {
             #[expect(
                 clippy::cast_possible_truncation,
@@ -67,6 +79,8 @@ impl Recorder for RunRecorder {
                 reason = "a fraction of a thousand steps"
             )]
             self.progress.set_position((sample.t / self.duration * PROGRESS_STEPS as f64) as u64);
+            let rate = sample.t / self.begin.elapsed().as_secs_f64();
+            self.progress.set_prefix(format!("{} x real time", short(rate)));
         }
         Ok(true)
     }
@@ -81,7 +95,9 @@ fn progress_bar(show: bool) -> ProgressBar {
         return ProgressBar::hidden();
     }
     let bar = ProgressBar::new(PROGRESS_STEPS);
-    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {percent}% {elapsed} left {eta}") {
+    if let Ok(style) =
+        ProgressStyle::with_template("{msg}[{bar:40}] {percent}% {prefix} {elapsed} left {eta}")
+    {
         bar.set_style(style.progress_chars("=> "));
     }
     bar.enable_steady_tick(Duration::from_millis(200));

@@ -1,13 +1,14 @@
 //! `mmsim run`: one scenario, one controller.
 
 use std::error::Error;
+use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::recorder::RunRecorder;
 use super::{Common, Exit, RunArgs, complain, print, table};
 use crate::experiment::Experiment;
-use crate::log::{LogError, Outcome};
+use crate::log::{LogError, Outcome, RunLog};
 use crate::scenario::{self, Loaded};
 use crate::simulation::RunResult;
 use crate::summary::{self, Summary};
@@ -16,16 +17,26 @@ use crate::summary::{self, Summary};
 pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
     let common = &args.common;
     let spec = common.scenario()?;
+    if common.json {
+        common.refuse_stdout("leaves no room for --json")?;
+    }
+    if std::io::stdout().is_terminal() {
+        common.refuse_stdout("would write a binary log to the terminal")?;
+    }
     let sets = common.sets(args.controller.as_deref());
     let prepared = match prepare(spec, &sets) {
         Ok(prepared) => prepared,
         Err(exit) => return Ok(exit),
     };
     let path = (!common.no_log).then(|| log_path(&common.out, prepared.0.name()));
-    let (summary, mut exit) = match execute(&prepared, path, !(common.quiet || common.json)) {
-        Ok(done) => done,
+    let (ran, mut exit) = match execute(&prepared, path, !(common.quiet || common.json)) {
+        Ok(ran) => {
+            let exit = ran.exit;
+            (ran, exit)
+        }
         Err(exit) => return Ok(exit),
     };
+    let summary = &ran.summary;
     let (loaded, _) = &prepared;
     if exit == Exit::Done && !loaded.is_modified() {
         let missed = summary::missed(&loaded.file.expect, &summary.metrics);
@@ -36,18 +47,22 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
             exit = Exit::Missed;
         }
     }
-    Ok(exit.max(report(common, &summary, exit)))
+    Ok(exit.max(report(common, &ran, exit)))
 }
 
 /// Prints the summary in the form asked for.
-fn report(common: &Common, summary: &Summary, exit: Exit) -> Exit {
+fn report(common: &Common, Ran { summary, error, .. }: &Ran, exit: Exit) -> Exit {
     complain_of(summary, exit, "");
+    let table = || table::single(summary, error.as_deref());
     if common.json {
         print(&summary.to_json())
     } else if common.quiet {
         Exit::Done
+    } else if common.logs_to_stdout() {
+        complain(&table());
+        Exit::Done
     } else {
-        print(&table::single(summary))
+        print(&table())
     }
 }
 
@@ -77,9 +92,17 @@ pub(super) fn with_causes(error: &dyn Error) -> String {
     causes.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
 }
 
-/// Path of a log in a folder.
+/// Path of a log in a folder; that of standard output stays as it is.
 pub(super) fn log_path(out: &Path, name: &str) -> PathBuf {
-    out.join(format!("{name}.mcap"))
+    if out == RunLog::STDOUT { out.to_owned() } else { out.join(format!("{name}.mcap")) }
+}
+
+/// What a run left.
+pub(super) struct Ran {
+    pub(super) summary: Summary,
+    pub(super) exit: Exit,
+    /// Its error over time, as a line of text.
+    pub(super) error: Option<String>,
 }
 
 /// Runs a built scenario; the log, if there is one, is finished however the run ends.
@@ -87,7 +110,7 @@ pub(super) fn execute(
     prepared: &(Loaded, Experiment),
     log: Option<PathBuf>,
     show_progress: bool,
-) -> Result<(Summary, Exit), Exit> {
+) -> Result<Ran, Exit> {
     execute_with(prepared, log, show_progress, |recorder| prepared.1.run(recorder))
 }
 
@@ -97,8 +120,11 @@ pub(super) fn execute_with(
     log: Option<PathBuf>,
     show_progress: bool,
     run: impl FnOnce(&mut RunRecorder) -> Result<RunResult, LogError>,
-) -> Result<(Summary, Exit), Exit> {
-    let fail = |error: &dyn Error| {
+) -> Result<Ran, Exit> {
+    let fail = |error: &LogError| {
+        if error.is_broken_pipe() {
+            return Exit::Done; // whoever reads the log has enough of it
+        }
         complain(&format_args!("error: {}", with_causes(error)));
         Exit::Failed
     };
@@ -119,6 +145,7 @@ pub(super) fn execute_with(
     let summary = Summary::of((loaded, experiment), &result, wall_s, log.as_deref());
     let ended = summary::describe(&result.ending);
     let outcome = Outcome::from(&result.ending);
+    let error = recorder.error();
     let exit = if outcome == Outcome::Finished { Exit::Done } else { Exit::Failed };
     recorder.finish(outcome, &summary.to_json(), &summary.digest).map_err(|error| fail(&error))?;
     if let Some(text) = ended {
@@ -127,5 +154,5 @@ pub(super) fn execute_with(
             complain(&format_args!("the log up to there is {path}"));
         }
     }
-    Ok((summary, exit))
+    Ok(Ran { summary, exit, error })
 }

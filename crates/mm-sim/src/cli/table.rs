@@ -28,8 +28,8 @@ pub(super) fn short(value: f64) -> String {
     }
 }
 
-/// The table of one run.
-pub(super) fn single(s: &Summary) -> String {
+/// The table of one run; `error` is its error over time, if it was watched.
+pub(super) fn single(s: &Summary, error: Option<&str>) -> String {
     let m = &s.metrics;
     let mut out = format!(
         "{} with {}: {} of {} s simulated in {} s, {} times real time\n\n",
@@ -53,6 +53,9 @@ pub(super) fn single(s: &Summary) -> String {
         "mm",
         [m.rmse_m.x, m.rmse_m.y, m.rmse_m.z, m.rmse_m.norm].map(|e| e * 1e3),
     );
+    if let Some(line) = error {
+        let _ = writeln!(out, "{:22} {line}  each step a factor of 3.2", "error over time");
+    }
     out.push('\n');
     let tv = &m.torque_tv_n_m_per_s;
     let peak = &m.peak_torque_n_m;

@@ -37,3 +37,16 @@ pub enum LogError {
         path: PathBuf,
     },
 }
+
+impl LogError {
+    /// Whether the log went to a reader that has gone away.
+    #[must_use]
+    pub fn is_broken_pipe(&self) -> bool {
+        match self {
+            Self::Create { source, .. } | Self::Write { source: mcap::McapError::Io(source), .. } => {
+                source.kind() == std::io::ErrorKind::BrokenPipe
+            }
+            Self::Write { .. } | Self::Read { .. } | Self::Empty { .. } => false,
+        }
+    }
+}

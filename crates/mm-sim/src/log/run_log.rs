@@ -26,6 +26,9 @@ pub struct RunLog {
 }
 
 impl RunLog {
+    /// The path that stands for standard output.
+    pub const STDOUT: &str = "-";
+
     /// Makes the file of a scenario's run, with what is known before it begins.
     ///
     /// # Errors
@@ -41,19 +44,21 @@ impl RunLog {
             })
             .collect();
         let files: Vec<(&str, &str)> = loaded.files().collect();
-        let writer = LogWriter::create(
-            path,
-            &LogHeader {
-                scenario_name: loaded.name(),
-                scenario_text: loaded.text(),
-                files: &files,
-                versions: &[("mmsim", VERSION)],
-                seed: loaded.file.simulation.seed,
-                controller: controller_name(loaded.file.controller.kind),
-                robot: RobotShape::from(experiment.plant().robot().params()),
-                reference: &reference,
-            },
-        )?;
+        let header = LogHeader {
+            scenario_name: loaded.name(),
+            scenario_text: loaded.text(),
+            files: &files,
+            versions: &[("mmsim", VERSION)],
+            seed: loaded.file.simulation.seed,
+            controller: controller_name(loaded.file.controller.kind),
+            robot: RobotShape::from(experiment.plant().robot().params()),
+            reference: &reference,
+        };
+        let writer = if path == Self::STDOUT {
+            LogWriter::to_stdout(&header)
+        } else {
+            LogWriter::create(path, &header)
+        }?;
         Ok(Self {
             writer: TimelyWriter::new(writer),
             half_track: 0.5 * params.track_width,

@@ -2,7 +2,7 @@
 
 use super::frames::{BASE, Joint, joints};
 use core::f64::consts::FRAC_PI_2;
-use mm_model::RobotParams;
+use mm_model::{Limits, RobotParams};
 use std::fmt::{self, Write};
 
 /// Length and width of the base's box, m; the model has no use for them.
@@ -13,6 +13,9 @@ const BASE_MIN_HEIGHT_M: f64 = 0.08;
 const WHEEL_WIDTH_M: f64 = 0.03;
 /// Radius of a link, m.
 const LINK_RADIUS_M: f64 = 0.025;
+
+/// Wheels, which come first among the joints.
+const WHEELS: usize = 2;
 
 /// What a drawing of the robot needs, and the masses that go with it, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,13 +72,23 @@ impl From<&RobotParams<f64, 3>> for RobotShape {
 /// knows the vertical one only, is repeated on all axes.
 #[must_use]
 pub fn urdf(shape: &RobotShape) -> String {
+    text_of(shape, None)
+}
+
+/// Writes the same with the largest torques, and with the ranges of the arm's joints, which a log may show beyond them.
+#[must_use]
+pub fn urdf_with_limits(shape: &RobotShape, limits: &Limits<f64, 3>) -> String {
+    text_of(shape, Some(limits))
+}
+
+fn text_of(shape: &RobotShape, limits: Option<&Limits<f64, 3>>) -> String {
     let mut text = String::with_capacity(4096);
     // Formatting numbers into a string cannot fail.
-    let _ = write_urdf(&mut text, shape);
+    let _ = write_urdf(&mut text, shape, limits);
     text
 }
 
-fn write_urdf(text: &mut String, shape: &RobotShape) -> fmt::Result {
+fn write_urdf(text: &mut String, shape: &RobotShape, limits: Option<&Limits<f64, 3>>) -> fmt::Result {
     writeln!(text, "<?xml version=\"1.0\"?>\n<robot name=\"mmsim\">")?;
     writeln!(text, "  <material name=\"base\"><color rgba=\"0.35 0.40 0.46 1\"/></material>")?;
     writeln!(text, "  <material name=\"wheel\"><color rgba=\"0.12 0.12 0.13 1\"/></material>")?;
@@ -91,8 +104,8 @@ fn write_urdf(text: &mut String, shape: &RobotShape) -> fmt::Result {
         write_link(text, shape, index)?;
     }
     writeln!(text, "  <link name=\"tip\"/>")?;
-    for joint in &joints(shape) {
-        write_joint(text, joint)?;
+    for (index, joint) in joints(shape).iter().enumerate() {
+        write_joint(text, joint, limits.and_then(|limits| limit(limits, index)))?;
     }
     writeln!(text, "</robot>")
 }
@@ -158,10 +171,26 @@ fn write_link(text: &mut String, shape: &RobotShape, index: usize) -> fmt::Resul
     writeln!(text, "  </link>")
 }
 
-fn write_joint(text: &mut String, joint: &Joint) -> fmt::Result {
+/// Rate that no run reaches, rad/s: URDF asks for one and the model has none.
+const ANY_RATE_RAD_S: f64 = 1000.0;
+
+/// Range, for those that have one, and largest torque of a joint.
+fn limit(limits: &Limits<f64, 3>, index: usize) -> Option<(Option<(f64, f64)>, f64)> {
+    let of_arm = |joint: usize| Some((Some(*limits.joints.get(joint)?), *limits.joint_torque.get(joint)?));
+    match index.checked_sub(WHEELS) {
+        None => Some((None, limits.wheel_torque)),
+        Some(joint) => of_arm(joint),
+    }
+}
+
+fn write_joint(text: &mut String, joint: &Joint, limit: Option<(Option<(f64, f64)>, f64)>) -> fmt::Result {
     let Joint { name, parent, child, origin: [x, y, z], axis } = joint;
     let fixed = axis.iter().all(|component| *component == 0.0);
-    let kind = if fixed { "fixed" } else { "continuous" };
+    let kind = match limit {
+        _ if fixed => "fixed",
+        Some((Some(_), _)) => "revolute",
+        _ => "continuous",
+    };
     writeln!(
         text,
         "  <joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>"
@@ -170,6 +199,13 @@ fn write_joint(text: &mut String, joint: &Joint) -> fmt::Result {
     if !fixed {
         let [x, y, z] = axis;
         write!(text, "<axis xyz=\"{x} {y} {z}\"/>")?;
+    }
+    if let Some((range, torque)) = limit {
+        write!(text, "\n    <limit")?;
+        if let Some((lo, hi)) = range {
+            write!(text, " lower=\"{lo}\" upper=\"{hi}\"")?;
+        }
+        write!(text, " effort=\"{torque}\" velocity=\"{ANY_RATE_RAD_S}\"/>")?;
     }
     writeln!(text, "</joint>")
 }

@@ -86,6 +86,17 @@ impl LogWriter {
         let file = File::create(path).map_err(|source| LogError::Create { path: path.to_owned(), source })?;
         Self::to_sink(BufWriter::with_capacity(64 * 1024, file), path, header)
     }
+
+    /// The same on standard output.
+    ///
+    /// # Errors
+    ///
+    /// As [`create`](Self::create).
+    pub fn to_stdout(header: &LogHeader<'_>) -> Result<Self, LogError> {
+        let path = PathBuf::from("on standard output");
+        let file = stdout_file().map_err(|source| LogError::Create { path: path.clone(), source })?;
+        Self::to_sink(BufWriter::with_capacity(64 * 1024, file), path, header)
+    }
 }
 
 impl<W: Write> LogWriter<W> {
@@ -260,6 +271,15 @@ pub(super) fn container(profile: &str) -> WriteOptions {
         .disable_seeking(true)
         .compression_level(COMPRESSION_LEVEL.cast_unsigned())
         .compression_threads(0)
+}
+
+/// Standard output without the buffer that ends a line.
+fn stdout_file() -> std::io::Result<File> {
+    #[cfg(unix)]
+    let owned = std::os::fd::AsFd::as_fd(&std::io::stdout()).try_clone_to_owned();
+    #[cfg(windows)]
+    let owned = std::os::windows::io::AsHandle::as_handle(&std::io::stdout()).try_clone_to_owned();
+    owned.map(File::from)
 }
 
 fn attach<W: Write>(

@@ -10,6 +10,9 @@ use super::nearest::nearest;
 use super::schema::{Kind, View};
 use super::tree::{Node, Place, Table, Value};
 
+/// What is said of a key that has to be there.
+pub(super) const MISSING: &str = "missing key";
+
 /// Longest value that a message quotes.
 const MAX_QUOTE: usize = 40;
 
@@ -154,9 +157,8 @@ impl Checker<'_> {
         let names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
         let tag = kinds.first()?.tag;
         let Some(entry) = table.get(tag) else {
-            self.problems.push(
-                Problem::new(&join(key, tag), "missing key", node.place.clone()).expected(one_of(&names)),
-            );
+            self.problems
+                .push(Problem::new(&join(key, tag), MISSING, node.place.clone()).expected(one_of(&names)));
             return None;
         };
         self.word(&names, &entry.node, &join(key, tag));
@@ -208,7 +210,7 @@ impl Checker<'_> {
                 self.value(view, &empty, key);
             }
             _ => {
-                let mut problem = Problem::new(key, "missing key", place.clone());
+                let mut problem = Problem::new(key, MISSING, place.clone());
                 if let Some(view) = view {
                     problem = problem.expected(describe(view));
                 }
@@ -300,6 +302,7 @@ fn plural(view: View<'_>) -> String {
     match view.text("type") {
         Some("number") => format!("numbers{}", range(view)),
         Some("integer") => format!("whole numbers{}", range(view)),
+        Some("string") => "strings".to_owned(),
         Some("object") => "tables, `[[...]]`".to_owned(),
         Some("array") => describe(view).replacen("an array", "arrays", 1),
         _ => "values".to_owned(),

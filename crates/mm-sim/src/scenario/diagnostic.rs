@@ -1,6 +1,7 @@
 //! What is wrong with a scenario, where, and how it should be.
 
 use std::fmt;
+use std::path::{Path, PathBuf};
 
 use super::tree::Place;
 use crate::snippet::{Message, boundary};
@@ -14,6 +15,26 @@ pub(super) struct Source {
     /// The file as given, or `--set`.
     pub(super) name: String,
     pub(super) text: String,
+    /// Where the files are that it names: that of the scenario and of what it includes; none for the working directory.
+    pub(super) folder: Option<PathBuf>,
+}
+
+impl Source {
+    /// A text that names files, if it names any, from the working directory.
+    pub(super) fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into(), folder: None }
+    }
+
+    /// The same of a file that names others from its folder.
+    pub(super) fn within(mut self, folder: &Path) -> Self {
+        self.folder = Some(folder.to_owned());
+        self
+    }
+
+    /// Whether it is what the scenario says itself: its file, what that includes, an edit.
+    pub(super) fn is_own(&self) -> bool {
+        self.folder.is_some() || self.name == super::SET_NAME
+    }
 }
 
 /// One thing that is wrong with a scenario.
@@ -49,6 +70,11 @@ impl Problem {
     pub(super) fn nearest(mut self, nearest: Option<impl Into<String>>) -> Self {
         self.nearest = nearest.map(Into::into);
         self
+    }
+
+    /// Whether it lies in a text before a byte of it.
+    pub(super) fn is_before(&self, source: usize, byte: usize) -> bool {
+        self.place.as_ref().is_some_and(|place| place.source == source && place.span.end <= byte)
     }
 
     pub(super) fn boxed(self) -> Box<Self> {

@@ -20,6 +20,11 @@ unit. Whole numbers serve as floats; `nan` and `inf` are refused. An unknown key
 `--set KEY=VALUE` changes any key from the command line: KEY is dotted, a number in it counts the entries of
 an array from zero (`robot.link.1.mass_kg=6.5`), missing tables are made, and VALUE is a TOML value or a bare
 word.
+
+`include = \"base.toml\"` continues another file, or one of the bundled scenarios by its name: tables are merged key by key, `[[robot.link]]`
+entry by entry, a `[trajectory]` of another `kind` replaces the old one as a whole, and so does every other value and array. What a
+file names is sought beside that file. `mmsim scenario new` writes a commented file to begin with, `mmsim scenario check FILE` says
+what is wrong with one, and editors with the schema say it while one types.
 ";
 
 /// Returns the reference page of the scenario format in Markdown, a table for each section.

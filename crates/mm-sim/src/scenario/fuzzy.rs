@@ -16,10 +16,11 @@ pub(super) fn file(
     let key = root.find(KEY)?;
     let name = key.as_str()?;
     let source = sources.len();
-    let read = linked(key, name, files, ".fis").or_else(|message| match mm_fis::bundled_text(name) {
-        Some(text) => Ok(Source { name: name.to_owned(), text: text.to_owned() }),
-        None => Err(message),
-    });
+    let read =
+        linked(key, name, (sources, files), ".fis").or_else(|message| match mm_fis::bundled_text(name) {
+            Some(text) => Ok(Source::new(name, text)),
+            None => Err(message),
+        });
     match read {
         Ok(read) => sources.push(read),
         Err(message) => {

@@ -18,7 +18,7 @@ pub(super) fn resolve(
 ) -> Result<(), ScenarioError> {
     let law = law(root);
     let key = "controller.gains_file";
-    let file = included(root, (key, "a file of gains"), sources, files, problems)?;
+    let file = included(root, (key, "a file of gains", &schema::GAINS), sources, files, problems)?;
     let from_argument = |node: &Node| sources.get(node.place.source).is_some_and(|s| s.name == SET_NAME);
     let mut layers = Vec::new();
     if let Some(file) = file {

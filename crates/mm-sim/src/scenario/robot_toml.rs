@@ -9,7 +9,17 @@ use mm_model::RobotParams;
 /// The friction of the parameters is not in it: a scenario gives that to the plant alone.
 #[must_use]
 pub fn robot_toml(params: &RobotParams<f64, 3>) -> String {
-    let mut text = String::from("[robot]\n");
+    format!("[robot]\n{}", fields(params, "robot.link"))
+}
+
+/// The same as a file of its own, as `robot.file` names one.
+#[must_use]
+pub fn robot_file_toml(params: &RobotParams<f64, 3>) -> String {
+    fields(params, "link")
+}
+
+fn fields(params: &RobotParams<f64, 3>, links: &str) -> String {
+    let mut text = String::new();
     let numbers = [
         ("base_mass_kg", params.base_mass),
         ("base_yaw_inertia_kg_m2", params.base_yaw_inertia),
@@ -29,7 +39,7 @@ pub fn robot_toml(params: &RobotParams<f64, 3>) -> String {
     for (link, ((lo, hi), torque)) in params.links.iter().zip(limits) {
         let _ = write!(
             text,
-            "\n[[robot.link]]\nlength_m = {:?}\nmass_kg = {:?}\ncom_m = {:?}\ninertia_kg_m2 = {:?}\n\
+            "\n[[{links}]]\nlength_m = {:?}\nmass_kg = {:?}\ncom_m = {:?}\ninertia_kg_m2 = {:?}\n\
              joint_limit_rad = {:?}\ntorque_limit_n_m = {torque:?}\n",
             link.length,
             link.mass,

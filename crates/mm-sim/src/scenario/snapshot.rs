@@ -36,7 +36,7 @@ impl Snapshot {
     ///
     /// As [`load`](super::load), where the texts are not those of a scenario that was loaded.
     pub fn restore(&self) -> Result<Loaded, ScenarioError> {
-        let source = |(name, text): &(String, String)| Source { name: name.clone(), text: text.clone() };
+        let source = |(name, text): &(String, String)| Source::new(name, text);
         let known: Vec<Source> = self.texts.iter().map(source).collect();
         let (name, text) = known.first().map_or(("", ""), |first| (&first.name, &first.text));
         let files = Files { folder: &self.folder, known: &known, settled: self.sets.len() };

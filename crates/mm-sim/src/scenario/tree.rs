@@ -1,5 +1,6 @@
 //! A TOML document as a tree in which every key and value knows its place.
 
+mod merge;
 mod set;
 
 use std::collections::BTreeMap;
@@ -7,6 +8,7 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
+pub(super) use merge::lay_over;
 pub(super) use set::set;
 
 /// A stretch of one of the texts that a scenario is made of: its file, a robot file, a `--set` argument.
@@ -47,25 +49,18 @@ pub(super) struct Entry {
     pub(super) node: Node,
 }
 
-/// Parses a TOML document.
+/// Parses a TOML document: the tree, and every syntax error as its message and bytes.
 ///
-/// # Errors
-///
-/// Every syntax error, as its message and bytes.
-pub(super) fn parse(source: usize, text: &str) -> Result<Node, Vec<(String, Range<usize>)>> {
+/// With errors the tree is that of the text before the first of them; what follows is anyone's guess.
+pub(super) fn parse(source: usize, text: &str) -> (Node, Vec<(String, Range<usize>)>) {
     let (document, errors) = DeTable::parse_recoverable(text);
-    if errors.is_empty() {
-        let table = document.into_inner();
-        return Ok(Node { value: from_table(source, table), place: Place { source, span: 0..0 } });
-    }
+    let table = document.into_inner();
     let end = text.len();
-    Err(errors
-        .iter()
-        .map(|error| {
-            let span = error.span().unwrap_or(0..0);
-            (error.message().to_owned(), span.start.min(end)..span.end.min(end))
-        })
-        .collect())
+    let errors = errors.iter().map(|error| {
+        let span = error.span().unwrap_or(0..0);
+        (error.message().to_owned(), span.start.min(end)..span.end.min(end))
+    });
+    (Node { value: from_table(source, table), place: Place { source, span: 0..0 } }, errors.collect())
 }
 
 /// Parses a TOML value that starts at byte `offset` of its text.
@@ -213,33 +208,6 @@ impl Node {
             Value::Array(items) => items.get(segment.parse::<usize>().ok()?),
             _ => None,
         }
-    }
-}
-
-/// Lays the fields of `above` over those of `below`: arrays of tables entry by entry, all else as a whole.
-pub(super) fn overlay(below: &mut Table, above: Table) {
-    for (key, mut entry) in above {
-        if let Some(old) = below.get_mut(&key) {
-            match (&mut old.node.value, &mut entry.node.value) {
-                (Value::Array(old_items), Value::Array(items)) if items.iter().all(is_table) => {
-                    let rest = items.split_off(items.len().min(old_items.len()));
-                    for (old_item, item) in old_items.iter_mut().zip(std::mem::take(items)) {
-                        overlay_node(old_item, item);
-                    }
-                    old_items.extend(rest);
-                }
-                _ => *old = entry,
-            }
-        } else {
-            below.insert(key, entry);
-        }
-    }
-}
-
-fn overlay_node(below: &mut Node, above: Node) {
-    match (&mut below.value, above.value) {
-        (Value::Table(old), Value::Table(new)) => overlay(old, new),
-        (old, new) => *old = new,
     }
 }
 

@@ -52,6 +52,9 @@ pub struct ScenarioFile {
     /// Where it comes from, for example a section of the thesis.
     #[serde(default)]
     pub source: String,
+    /// A file, or several, that this one continues: tables are merged key by key, everything else here replaces what is there, the
+    /// later of several files the earlier. Sought in the folder of the file that names it; else a bundled scenario by its name.
+    pub include: Option<Include>,
     /// Clock, integration and randomness.
     pub simulation: Simulation,
     /// The robot that the controller knows. Default: the preset `thesis`.
@@ -88,6 +91,17 @@ pub struct ScenarioFile {
     /// again.
     #[serde(default)]
     pub tune: Tune,
+}
+
+/// One file, or several.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(inline)]
+pub enum Include {
+    /// One.
+    One(String),
+    /// Several, of which the later come before the earlier.
+    Several(Vec<String>),
 }
 
 /// Clock, integration and randomness.

@@ -38,7 +38,7 @@ pub(super) fn file(
         }
     };
     let source = sources.len();
-    match linked(key, name, files, format) {
+    match linked(key, name, (sources, files), format) {
         Ok(linked) => sources.push(linked),
         Err(message) => {
             problems.push(Problem::new(KEY, message, key.place.clone()).expected("a file of points"));
@@ -46,7 +46,7 @@ pub(super) fn file(
         }
     }
     let points = if format == "TOML" {
-        let mut tree = parse(sources, source)?;
+        let mut tree = parse(sources, source, &schema::WAYPOINTS)?;
         problems.extend(check::check(sources, &schema::WAYPOINTS, &tree));
         match &mut tree.value {
             Value::Table(entries) => entries.remove("points_m").map(|entry| entry.node),

@@ -10,7 +10,7 @@ const MAX_DEPTH: usize = 80;
 const MAX_NEW_ENTRIES: usize = 16;
 
 /// Keys of which a scenario takes one of two: an argument for one displaces the other from the file.
-const RIVALS: [(&str, &str, &str); 3] =
+pub(super) const RIVALS: [(&str, &str, &str); 3] =
     [("robot", "preset", "file"), ("initial", "base_pose", "tip"), ("trajectory", "points_m", "file")];
 
 /// Sets the value that the argument `KEY=VALUE`, the text `source`, names.
