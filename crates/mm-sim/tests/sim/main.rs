@@ -14,6 +14,7 @@ mod cli_sweep;
 mod cli_tune;
 mod figures;
 mod hardware;
+mod log_read;
 mod log_roundtrip;
 mod pil;
 mod reproduce;
