@@ -4,8 +4,10 @@ mod compare;
 mod fis;
 mod interrupt;
 mod pil;
+mod plot;
 mod progress;
 mod recorder;
+mod report;
 mod reproduce;
 mod run;
 mod scenario;
@@ -44,6 +46,8 @@ pub enum Exit {
     mmsim compare --scenario square-compare --controllers bsmc,bsmc-sat,bfsmc-thesis,bfsmc\n  \
     mmsim sweep --scenario square-compare --samples 1000\n  \
     mmsim tune --scenario square-compare --controller bfsmc -o gains.toml\n  \
+    mmsim report out/square.mcap\n  \
+    mmsim plot out/square.mcap -o square.svg\n  \
     mmsim pil --scenario square-compare --target qemu:cortex-m4\n  \
     mmsim fis eval thesis -0.5 0.25\n\n\
     Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed")]
@@ -68,6 +72,10 @@ enum Command {
     Tune(tune::TuneArgs),
     /// Run a scenario with the controller on a microcontroller, and compare it with the one here, bit for bit.
     Pil(pil::PilArgs),
+    /// Show logs side by side: one HTML file with tables, plots and a 3D replay that opens from disk.
+    Report(report::ReportArgs),
+    /// Draw figures of logs as SVG or PNG.
+    Plot(plot::PlotArgs),
     /// List, show and check scenario files, or print their JSON schema.
     #[command(subcommand)]
     Scenario(ScenarioCommand),
@@ -204,6 +212,8 @@ where
         Some(Command::Sweep(args)) => sweep::sweep(&args),
         Some(Command::Tune(args)) => tune::tune(&args),
         Some(Command::Pil(args)) => pil::pil(&args),
+        Some(Command::Report(args)) => Ok(report::report(&args)),
+        Some(Command::Plot(args)) => Ok(plot::plot(&args)),
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
         Some(Command::Fis(command)) => Ok(fis::fis(&command)),
     });

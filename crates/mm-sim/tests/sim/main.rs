@@ -9,6 +9,7 @@ mod cli;
 mod cli_endings;
 mod cli_fis;
 mod cli_input;
+mod cli_report;
 mod cli_reproduce;
 mod cli_sweep;
 mod cli_tune;
