@@ -66,6 +66,11 @@ impl Mmsim {
         output.with_context(|| format!("cannot start {}", self.0.display()))
     }
 
+    /// Runs it with any arguments; it has to end well.
+    pub(crate) fn succeed(&self, arguments: &[&str]) -> Result<()> {
+        run(self.command().args(arguments))
+    }
+
     fn command(&self) -> Command {
         command(&self.0)
     }
