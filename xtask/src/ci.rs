@@ -8,7 +8,7 @@ use anyhow::{Result, ensure};
 
 use crate::mmsim::{Mmsim, Profile};
 use crate::shell::{answers, cargo, run as run_command, watch};
-use crate::{bench_targets, capi, fuzzy_peers, pil, qemu, scenarios, size, tools, wheel};
+use crate::{bench_targets, capi, fuzzy_peers, pil, qemu, report, scenarios, size, tools, wheel};
 
 /// How a step ended, unless it failed.
 enum End {
@@ -27,7 +27,7 @@ struct Tests {
 /// A step: what it is called and what it does.
 type Step = (&'static str, fn(&mut Tests) -> Result<End>);
 
-const STEPS: [Step; 13] = [
+const STEPS: [Step; 14] = [
     ("format", |_| cargo_step(&["fmt", "--all", "--check"])),
     ("clippy", |_| {
         cargo_step(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])
@@ -46,6 +46,10 @@ const STEPS: [Step; 13] = [
     }),
     ("scenarios", |_| {
         scenarios::run(&Mmsim::find(None, Profile::TestRelease)?)?;
+        Ok(End::Done)
+    }),
+    ("reports in a browser", |tests| {
+        report::check(&Mmsim::find(None, Profile::TestRelease)?, |line| tests.add_python(line))?;
         Ok(End::Done)
     }),
     // Building the programs builds mm-model and mm-control for the targets.

@@ -17,6 +17,7 @@ mod pil;
 mod python;
 mod qemu;
 mod real_time;
+mod report;
 mod scenarios;
 mod shell;
 mod size;
@@ -53,6 +54,7 @@ cargo xtask <job>
                       [--fixed: fixed point beside single precision, on processors without floating point]
   wheel               the Python package: wheel and sdist into target/wheels, installed alone and tried
                       [--test: its tests, with packages from PyPI] [--quick: a wheel that is quickly linked, for its tests]
+  report              opens reports in Debian's Chromium: silent, the slider moves the robot, every plot has data [--mmsim FILE]
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -92,6 +94,12 @@ fn run() -> Result<ExitCode> {
         "fuzzy-peers" => {
             arguments.finish()?;
             fuzzy_peers::check(|_| ())?;
+            ExitCode::SUCCESS
+        }
+        "report" => {
+            let command = arguments.value("--mmsim")?;
+            arguments.finish()?;
+            report::check(&mmsim::Mmsim::find(command, mmsim::Profile::TestRelease)?, |_| ())?;
             ExitCode::SUCCESS
         }
         "grid" => {

@@ -73,6 +73,11 @@ impl Mmsim {
         command
     }
 
+    /// Runs it with any arguments; it has to end well.
+    pub(crate) fn succeed(&self, arguments: &[&str]) -> Result<()> {
+        run(self.command().args(arguments))
+    }
+
     fn command(&self) -> Command {
         command(&self.0)
     }

@@ -6,8 +6,10 @@ mod fis;
 mod interrupt;
 mod log;
 mod pil;
+mod plot;
 mod progress;
 mod recorder;
+mod report;
 mod reproduce;
 mod robot;
 mod run;
@@ -71,6 +73,12 @@ enum Command {
     /// Run a scenario with the controller on a microcontroller, and compare it with the one here, bit for bit.
     #[command(after_help = examples::PIL)]
     Pil(pil::PilArgs),
+    /// Show logs side by side: one HTML file with tables, plots and a 3D replay that opens from disk.
+    #[command(after_help = examples::REPORT)]
+    Report(report::ReportArgs),
+    /// Draw figures of logs as SVG or PNG.
+    #[command(after_help = examples::PLOT)]
+    Plot(plot::PlotArgs),
     /// Begin, list, show and check scenario files, or print their JSON schema.
     #[command(subcommand, after_help = examples::SCENARIO)]
     Scenario(ScenarioCommand),
@@ -248,6 +256,8 @@ where
         Some(Command::Sweep(args)) => sweep::sweep(&args),
         Some(Command::Tune(args)) => tune::tune(&args),
         Some(Command::Pil(args)) => pil::pil(&args),
+        Some(Command::Report(args)) => Ok(report::report(&args)),
+        Some(Command::Plot(args)) => Ok(plot::plot(&args)),
         Some(Command::Scenario(command)) => Ok(scenario::scenario(&command)),
         Some(Command::Fis(command)) => Ok(fis::fis(&command)),
         Some(Command::Log(command)) => Ok(log::log(&command)),

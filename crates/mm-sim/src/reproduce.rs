@@ -15,6 +15,7 @@ mod report;
 mod work;
 
 pub use catalogue::{EXPERIMENTS, Experiment, FIGURES, Figure};
+pub(crate) use claims::TABLE_5_2;
 pub use measure::{Axis, Measure};
 pub use report::{FigureFile, Report, Row, RunReport, SCHEMA};
 pub use work::{Options, Plan, ReproduceError, Watch};

@@ -6,6 +6,8 @@ pub(super) const MMSIM: &str = "Examples:
   mmsim compare --scenario square-compare --controllers bsmc,bsmc-sat,bfsmc-thesis,bfsmc
   mmsim sweep --scenario square-compare --samples 1000
   mmsim tune --scenario square-compare --controller bfsmc -o gains.toml
+  mmsim report out/square.mcap
+  mmsim plot out/square.mcap -o square.svg
   mmsim pil --scenario square-compare --target qemu:cortex-m4
   mmsim fis eval thesis -0.5 0.25
   mmsim scenario new -o mine.toml
@@ -39,6 +41,14 @@ pub(super) const TUNE: &str = "Examples:
 pub(super) const PIL: &str = "Examples:
   mmsim pil --scenario square-compare --target qemu:cortex-m4 --seconds 2
   mmsim pil --scenario square --target serial:/dev/ttyACM0 --inject drop=0.01";
+
+pub(super) const REPORT: &str = "Examples:
+  mmsim report out/square.mcap                       report.html beside the log
+  mmsim report out/bsmc.mcap out/bfsmc.mcap --out .  both side by side";
+
+pub(super) const PLOT: &str = "Examples:
+  mmsim plot out/square.mcap -o square.svg
+  mmsim plot out/bsmc.mcap out/bfsmc.mcap -o both.png";
 
 pub(super) const SCENARIO: &str = "Examples:
   mmsim scenario new -o mine.toml

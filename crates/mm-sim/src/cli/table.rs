@@ -3,30 +3,13 @@
 use std::fmt::Write as _;
 
 use crate::metrics::PerAxisSum;
+pub(super) use crate::number::short;
 use crate::simulation::Ending;
 use crate::summary::{Summary, ended};
 
 /// ITAE of Table 5.2 of the thesis: x, y, z, sum, for its BSMC and BFSMC.
 const TABLE_5_2: [(&str, [f64; 4]); 2] =
     [("thesis, its BSMC", [3.91, 4.637, 2.431, 10.978]), ("thesis, its BFSMC", [2.06, 4.265, 1.232, 7.557])];
-
-/// A number with four significant digits.
-pub(super) fn short(value: f64) -> String {
-    let size = value.abs();
-    if !value.is_finite() {
-        "-".to_owned()
-    } else if size < 1e-300 {
-        "0".to_owned()
-    } else if !(1e-3..1e5).contains(&size) {
-        format!("{value:.3e}")
-    } else {
-        let before = size.log10().floor();
-        let decimals = (3.0 - before).max(0.0);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 6")]
-        let decimals = decimals as usize;
-        format!("{value:.decimals$}")
-    }
-}
 
 /// The table of one run; `error` is its error over time, if it was watched.
 pub(super) fn single(s: &Summary, error: Option<&str>) -> String {

@@ -2,11 +2,13 @@
 
 mod actuators;
 mod base;
+mod overview;
 mod parts;
 mod tip;
 
 use actuators::{ARM, WHEELS, disturbance, joints, torques};
 use base::{base_path, base_velocity, base_world_velocity, from_above};
+use overview::overview;
 use tip::{errors, path, position, tip_velocity};
 
 use super::page::Page;
@@ -25,6 +27,8 @@ pub struct Run<'a> {
 /// A kind of picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
+    /// Tip, error, torques and velocity of the base, runs over each other.
+    Overview,
     /// Tip and reference along x, y and z; for several runs the errors beside them.
     Position,
     /// Joint angles, and joint rates with the virtual rates that they should follow.
@@ -52,10 +56,28 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// All of them with their names on the command line.
+    pub const ALL: [(Self, &'static str); 13] = [
+        (Self::Overview, "overview"),
+        (Self::Position, "position"),
+        (Self::Joints, "joints"),
+        (Self::JointTorques, "joint-torques"),
+        (Self::BaseVelocity, "base-velocity"),
+        (Self::WheelTorques, "wheel-torques"),
+        (Self::Errors, "errors"),
+        (Self::Path, "path"),
+        (Self::Disturbance, "disturbance"),
+        (Self::BasePath, "base-path"),
+        (Self::BaseWorldVelocity, "base-world-velocity"),
+        (Self::TipVelocity, "tip-velocity"),
+        (Self::FromAbove, "from-above"),
+    ];
+
     /// The picture of some runs.
     #[must_use]
     pub fn page(self, title: impl Into<String>, runs: &[Run<'_>]) -> Page {
         let (columns, panels) = match self {
+            Self::Overview => overview(runs),
             Self::Position => position(runs),
             Self::Joints => joints(runs),
             Self::JointTorques => torques(&ARM, runs),

@@ -6,6 +6,7 @@ use mm_model::{Real, Robot, Torque, Velocity};
 use nalgebra::Vector3;
 
 use crate::experiment::Experiment;
+use crate::log::LogFile;
 use crate::simulation::{Recorder, Sample};
 
 /// Columns that belong together.
@@ -107,6 +108,30 @@ impl Group {
         }
     }
 
+    /// Names of its columns among the fields of a log's `/control`; none of the tip's velocity, which is not logged.
+    #[must_use]
+    pub const fn log_names(self) -> &'static [&'static str] {
+        match self {
+            Self::Velocity => &[
+                "forward_m_s",
+                "yaw_rate_rad_s",
+                "joint1_rate_rad_s",
+                "joint2_rate_rad_s",
+                "joint3_rate_rad_s",
+            ],
+            Self::ReferenceVelocity => &["reference_dx_m_s", "reference_dy_m_s", "reference_dz_m_s"],
+            Self::Torque => &[
+                "torque_applied_right_n_m",
+                "torque_applied_left_n_m",
+                "torque_applied_joint1_n_m",
+                "torque_applied_joint2_n_m",
+                "torque_applied_joint3_n_m",
+            ],
+            Self::TipVelocity => &[],
+            other => other.names(),
+        }
+    }
+
     /// Number of the columns before its first one.
     fn offset(self) -> usize {
         Self::ALL.iter().take_while(|group| **group != self).map(|group| group.names().len()).sum()
@@ -116,7 +141,8 @@ impl Group {
 /// A recorder that keeps every sample: one column a quantity, at the log rate of the scenario.
 #[derive(Debug, Clone)]
 pub struct Recording {
-    robot: Robot<f64, 3>,
+    /// The robot whose tip velocity is recorded; none where samples come from a log.
+    robot: Option<Robot<f64, 3>>,
     is_imposed: bool,
     columns: Vec<Vec<f64>>,
 }
@@ -126,10 +152,33 @@ impl Recording {
     #[must_use]
     pub fn of(experiment: &Experiment) -> Self {
         Self {
-            robot: *experiment.plant().robot(),
+            robot: Some(*experiment.plant().robot()),
             is_imposed: matches!(experiment, Experiment::Open(_)),
             columns: vec![Vec::new(); Self::names().count()],
         }
+    }
+
+    /// The recording that a log holds. The tip's velocity, which is not logged, comes of differences of its position.
+    #[must_use]
+    pub fn of_log(log: &LogFile) -> Self {
+        let mut columns = Vec::new();
+        for group in Group::ALL {
+            if group == Group::TipVelocity {
+                let rate = |name: &&str| slopes(log.columns.time(), log.columns.get(name));
+                columns.extend(Group::Tip.log_names().iter().map(rate));
+            } else {
+                columns.extend(group.log_names().iter().map(|name| log.columns.get(name).to_vec()));
+            }
+        }
+        Self { robot: None, is_imposed: log.says("controller") == "none", columns }
+    }
+
+    /// A column by the name of its field in a log's `/control`; empty if it is not recorded.
+    #[must_use]
+    pub fn named(&self, log_name: &str) -> &[f64] {
+        let place = |group: &Group| group.log_names().iter().position(|name| *name == log_name);
+        let found = Group::ALL.iter().find_map(|group| place(group).map(|number| (*group, number)));
+        found.map_or(&[], |(group, number)| self.column(group, number))
     }
 
     /// Names of all columns, in order.
@@ -206,7 +255,8 @@ impl Recorder for Recording {
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<bool, Self::Error> {
         let state = sample.state;
-        let tip_velocity = self.robot.jacobian(&state.q).product(&state.nu);
+        let Some(robot) = self.robot else { return Ok(false) };
+        let tip_velocity = robot.jacobian(&state.q).product(&state.nu);
         let signals = sample.output.map(|output| &output.signals);
         self.push(Group::Time, &[sample.t]);
         self.push(Group::Pose, &[state.q.x, state.q.y, state.q.heading]);
@@ -219,11 +269,22 @@ impl Recorder for Recording {
         self.push(Group::ReferenceVelocity, sample.reference.velocity.as_slice());
         self.push(Group::Error, (sample.tip - sample.reference.position).as_slice());
         self.push(Group::Torque, &torques(sample.torque));
-        self.push(Group::Disturbance, &torques(&self.robot.torque_of(&sample.external)));
+        self.push(Group::Disturbance, &torques(&robot.torque_of(&sample.external)));
         self.push(Group::Sliding, &signals.map_or([0.0; 5], |signals| velocities(&signals.sliding)));
         self.push(Group::Manipulability, &[Real::sqrt(Real::max(sample.manipulability_squared, 0.0))]);
         Ok(true)
     }
+}
+
+/// Central differences of a column, one-sided at its ends.
+fn slopes(time: &[f64], values: &[f64]) -> Vec<f64> {
+    let at = |column: &[f64], i: usize| column.get(i).or(column.last()).copied().unwrap_or_default();
+    let slope = |i: usize| {
+        let (before, after) = (i.saturating_sub(1), i + 1);
+        let span = at(time, after) - at(time, before);
+        if span > 0.0 { (at(values, after) - at(values, before)) / span } else { 0.0 }
+    };
+    (0..values.len()).map(slope).collect()
 }
 
 fn torques(t: &Torque<f64, 3>) -> [f64; 5] {

@@ -1,14 +1,14 @@
 //! Fewer points for the same picture.
 
 /// A point on the canvas, px.
-pub(super) type Pixel = (f64, f64);
+pub(crate) type Pixel = (f64, f64);
 
 /// Deviation from the full curve that nobody sees, px.
 const INVISIBLE: f64 = 0.12;
 
 /// Indices of the points to draw of a function of the horizontal axis: in each pixel column the first, the last, the lowest
 /// and the highest point, so that chatter keeps its full height; then without those on a straight line.
-pub(super) fn function(points: &[Pixel]) -> Vec<usize> {
+pub(crate) fn function(points: &[Pixel]) -> Vec<usize> {
     let mut kept = Vec::new();
     let mut begin = 0;
     while let Some(first) = points.get(begin) {
@@ -28,7 +28,7 @@ pub(super) fn function(points: &[Pixel]) -> Vec<usize> {
 }
 
 /// Indices of the points to draw of a curve that may turn back.
-pub(super) fn path(points: &[Pixel]) -> Vec<usize> {
+pub(crate) fn path(points: &[Pixel]) -> Vec<usize> {
     straight(points, (0..points.len()).collect())
 }
 

@@ -17,6 +17,9 @@ const VERMILION: RGBColor = RGBColor(213, 94, 0);
 const GREEN: RGBColor = RGBColor(0, 158, 115);
 const ORANGE: RGBColor = RGBColor(230, 159, 0);
 const PURPLE: RGBColor = RGBColor(204, 121, 167);
+const SKY: RGBColor = RGBColor(86, 180, 233);
+const VIOLET: RGBColor = RGBColor(107, 91, 210);
+const BROWN: RGBColor = RGBColor(140, 74, 47);
 const BLACK: RGBColor = RGBColor(0, 0, 0);
 const GREY: RGBColor = RGBColor(150, 150, 150);
 
@@ -52,6 +55,26 @@ impl Stroke {
             "bfsmc-thesis" => Self { color: VERMILION, width: 1.8, dash: Some((7.0, 3.0)) },
             "bfsmc" | "none" => Self::solid(BLUE, 1.6),
             _ => Self { color: GREEN, width: 1.6, dash: Some((2.5, 2.5)) },
+        }
+    }
+
+    /// The stroke of a run among others: its law's, or another one for its number.
+    #[must_use]
+    pub(super) fn of_run(name: &str, number: usize) -> Self {
+        const OTHERS: [(RGBColor, Option<(f64, f64)>); 6] = [
+            (GREEN, Some((2.5, 2.5))),
+            (SKY, None),
+            (VIOLET, Some((7.0, 3.0))),
+            (BROWN, None),
+            (GREEN, None),
+            (SKY, Some((2.5, 2.5))),
+        ];
+        match name {
+            "bsmc" | "bsmc-sat" | "bfsmc-thesis" | "bfsmc" | "none" => Self::of_law(name),
+            _ => {
+                let (color, dash) = OTHERS.get(number % OTHERS.len()).copied().unwrap_or((GREEN, None));
+                Self { color, width: 1.6, dash }
+            }
         }
     }
 

@@ -142,7 +142,7 @@ fn compared(experiment: &'static str, from: &'static str, t: f64) -> Vec<Claim> 
 }
 
 /// Table 5.2: ITAE of BSMC, of BFSMC, and the improvement in percent; the sums are the text's.
-pub(super) const TABLE_5_2: [(Axis, f64, f64, f64); 4] = [
+pub(crate) const TABLE_5_2: [(Axis, f64, f64, f64); 4] = [
     (Axis::X, 3.91, 2.06, 47.31),
     (Axis::Y, 4.637, 4.265, 8.02),
     (Axis::Z, 2.431, 1.232, 49.32),

@@ -9,18 +9,18 @@ use super::report::FigureFile;
 use super::work::ReproduceError;
 use crate::figures::{Kind, Run};
 
-/// Draws a figure of some runs, whose data are in the given files, into the folder.
+/// Draws a figure of some runs, whose data are in the given files, into the folder; gives its text too.
 pub(super) fn draw(
     figure: &'static Figure,
     runs: &[Run<'_>],
     data: Vec<String>,
     out: &Path,
-) -> Result<FigureFile, ReproduceError> {
+) -> Result<(FigureFile, String), ReproduceError> {
     let page = figure.kind.page(title(figure, runs), runs);
     let svg = page.to_svg().map_err(|source| ReproduceError::Figure { number: figure.number, source })?;
     let path = format!("figures/figure-{}.svg", figure.number);
     write(&out.join(&path), |file| file.write_all(svg.as_bytes()))?;
-    Ok(FigureFile { figure: figure.number, caption: figure.caption, svg: path, data })
+    Ok((FigureFile { figure: figure.number, caption: figure.caption, svg: path, data }, svg))
 }
 
 fn title(figure: &Figure, runs: &[Run<'_>]) -> String {

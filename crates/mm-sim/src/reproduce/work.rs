@@ -1,7 +1,7 @@
 //! The runs of a reproduction, and the files they leave.
 
 use std::convert::Infallible;
-use std::io;
+use std::io::{self, Write as _};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -15,7 +15,9 @@ use super::measure::Done;
 use super::report::{FIGURES_HEADER, FigureFile, Report, RunReport, SCHEMA, TABLE_HEADER, table};
 use crate::experiment::{Experiment as Built, controller_name};
 use crate::figures::{FigureError, Recording, Run as Shown};
+use crate::log::{RobotShape, urdf};
 use crate::parallel::{Pool, PoolError};
+use crate::report::{Group, Run as ShownRun, Signals, of_reproduction};
 use crate::scenario::{self, Loaded, ScenarioError};
 use crate::simulation::{Ending, Recorder, RunResult, Sample};
 use crate::summary;
@@ -115,7 +117,7 @@ impl Plan {
         self.runs.len() + self.figures().count()
     }
 
-    /// Runs everything and writes `data/*.csv`, `figures/*.svg`, `figures.csv` and `table.csv` into a folder.
+    /// Runs everything and writes `data/*.csv`, `figures/*.svg`, `figures.csv`, `table.csv` and `report.html` into a folder.
     ///
     /// Each file is written beside its place first, so that none is ever half there; what else is in the folder stays.
     ///
@@ -130,7 +132,8 @@ impl Plan {
         let pool = Pool::new((self.jobs > 0).then_some(self.jobs))?;
         let ended = all(&pool, &self.runs, |run| run.perform(out, watch))?;
         let figures: Vec<&Figure> = self.figures().collect();
-        let figures = all(&pool, &figures, |figure| picture(figure, &ended, out, watch))?;
+        let drawn = all(&pool, &figures, |figure| picture(figure, &ended, out, watch))?;
+        let (figures, pictures): (Vec<FigureFile>, Vec<String>) = drawn.into_iter().unzip();
         let find = |experiment: &str, law: &str| {
             let is_it =
                 |run: &&Ended<'_>| run.planned.experiment.name == experiment && run.planned.controller == law;
@@ -141,14 +144,19 @@ impl Plan {
         write_csv(&out.join("table.csv"), &TABLE_HEADER, lines)?;
         let lines = figures.iter().map(FigureFile::fields);
         write_csv(&out.join("figures.csv"), &FIGURES_HEADER, lines)?;
-        Ok(Report {
+        let groups = groups(&ended);
+        let mut report = Report {
             schema: SCHEMA,
             out: out.display().to_string(),
-            wall_s: begin.elapsed().as_secs_f64(),
+            wall_s: 0.0,
             runs: ended.into_iter().map(|run| run.report).collect(),
             table,
             figures,
-        })
+        };
+        let page = of_reproduction(&report, &pictures, &groups);
+        write(&out.join("report.html"), |file| file.write_all(page.as_bytes()))?;
+        report.wall_s = begin.elapsed().as_secs_f64();
+        Ok(report)
     }
 
     /// The figures of the experiments that there are.
@@ -257,6 +265,14 @@ impl Planned {
 }
 
 impl Ended<'_> {
+    /// The run as the report shows it.
+    fn shown(&self) -> ShownRun {
+        let shape = RobotShape::from(self.planned.built.plant().robot().params());
+        let law = self.planned.controller;
+        let name = if law == "none" { self.planned.experiment.name } else { law };
+        ShownRun::new((name, law), &urdf(&shape), Signals::Recording(&self.recording))
+    }
+
     fn measured(&self) -> Done<'_> {
         let q = &self.result.last.q;
         Done {
@@ -266,6 +282,16 @@ impl Ended<'_> {
             duration_s: self.result.simulated_s(self.planned.built.clock()),
         }
     }
+}
+
+/// The runs of each experiment, to be replayed side by side.
+fn groups(ended: &[Ended<'_>]) -> Vec<Group> {
+    let of = |experiment: &Experiment| {
+        let runs = ended.iter().filter(|run| run.planned.experiment == experiment);
+        let runs: Vec<ShownRun> = runs.map(Ended::shown).collect();
+        (!runs.is_empty()).then(|| Group::new(format!("{} {}", experiment.section, experiment.name), runs))
+    };
+    EXPERIMENTS.iter().filter_map(of).collect()
 }
 
 /// A recording that can be ended.
@@ -292,7 +318,7 @@ fn picture(
     ended: &[Ended<'_>],
     out: &Path,
     watch: &dyn Watch,
-) -> Result<FigureFile, ReproduceError> {
+) -> Result<(FigureFile, String), ReproduceError> {
     if !watch.goes_on() {
         return Err(ReproduceError::Interrupted);
     }

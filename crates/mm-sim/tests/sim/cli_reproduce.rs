@@ -28,6 +28,11 @@ fn json_is_one_object_and_files_are_where_it_says() {
         let svg = figure["svg"].as_str().expect("a path");
         assert!(folder.path("here").join(svg).is_file(), "{svg} is there");
     }
+    let page = std::fs::read_to_string(folder.path("here/report.html")).expect("a page with all of it");
+    for number in 2..=44 {
+        assert!(page.contains(&format!("id=\"figure-5.{number}\"")), "figure 5.{number} is in the page");
+    }
+    assert!(page.contains("Table 5.2") && page.len() < 15_000_000, "the table, in {} bytes", page.len());
     for run in report["runs"].as_array().expect("runs") {
         assert_eq!(run["finished"], true, "{run}");
         assert_eq!(run["missed"].as_array().map(Vec::len), Some(0), "an edited scenario is not judged");

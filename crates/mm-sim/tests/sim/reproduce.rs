@@ -128,7 +128,7 @@ fn files_are_whole_and_the_same_for_any_number_of_threads() {
     }
     let svgs = files.keys().filter(|name| name.ends_with(".svg")).count();
     assert_eq!(svgs, report.figures.len(), "no figure twice under one name");
-    assert_eq!(files.len(), svgs + report.runs.len() + 2, "and nothing else");
+    assert_eq!(files.len(), svgs + report.runs.len() + 3, "two tables, a page, and nothing else");
 }
 
 #[test]

@@ -11,7 +11,8 @@ pub(super) const SIDES: [&str; 3] = ["x", "y", "z"];
 /// Name and stroke of a run's curve: of what it shows for a run alone, of its law among several.
 pub(super) fn identity(runs: &[Run<'_>], run: Run<'_>, alone: &str) -> (String, Stroke) {
     if runs.len() > 1 {
-        (run.name.to_owned(), Stroke::of_law(run.name))
+        let number = runs.iter().position(|other| other.name == run.name).unwrap_or_default();
+        (run.name.to_owned(), Stroke::of_run(run.name, number))
     } else {
         (alone.to_owned(), Stroke::only(run.name))
     }

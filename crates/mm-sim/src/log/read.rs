@@ -1,0 +1,186 @@
+//! Reading a log back: what it says about its run, and the signals of `/control` column by column.
+//!
+//! A file whose end is missing, since its run was killed, is read as far as it goes and says so in its warnings. Columns are decoded
+//! by the message definition in the file, not by that of this version.
+
+mod bytes;
+mod columns;
+mod error;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use mcap::read::{ChunkFlattener, Options};
+use mcap::records::{Metadata, Record};
+use serde_json::Value;
+
+use bytes::Bytes;
+pub use columns::Columns;
+use columns::Layout;
+pub use error::ReadError;
+
+/// A log as read.
+#[derive(Debug, Clone, Default)]
+pub struct LogFile {
+    /// The file as given.
+    pub path: PathBuf,
+    /// What identifies the run: version, scenario, controller, seed, and `version.NAME` of what else took part.
+    pub run: BTreeMap<String, String>,
+    /// How it ended: outcome, digest, samples, `end_ns`; none for a run that did not get there.
+    pub result: Option<BTreeMap<String, String>>,
+    /// The text of the scenario file, TOML, without edits of the command line.
+    pub scenario_text: String,
+    /// Texts of the files that the scenario names: file, text.
+    pub files: Vec<(String, String)>,
+    /// The summary; none for a run that did not get there.
+    pub summary: Option<Value>,
+    /// The robot as URDF.
+    pub urdf: String,
+    /// The desired path of the tip: time in seconds, x, y and z in metres.
+    pub reference: Vec<[f64; 4]>,
+    /// The signals.
+    pub columns: Columns,
+    /// What a reader should know of the file.
+    pub warnings: Vec<String>,
+}
+
+/// What a channel of the file carries, as far as it is read here.
+enum Carried {
+    Robot,
+    Reference,
+    Control(Layout),
+}
+
+impl LogFile {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// The file cannot be read, is no MCAP, or holds no samples of a run.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        let path = path.as_ref();
+        let open = |source| ReadError::Open { path: path.to_owned(), source };
+        Self::from_bytes(path, &std::fs::read(path).map_err(open)?)
+    }
+
+    /// Reads the bytes of a file; `path` is what errors and warnings call it.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read), but for the file system's.
+    pub fn from_bytes(path: impl AsRef<Path>, bytes: &[u8]) -> Result<Self, ReadError> {
+        let path = path.as_ref().to_owned();
+        if !bytes.starts_with(mcap::MAGIC) {
+            return Err(ReadError::NoLog { path });
+        }
+        let mut log = Self { path, ..Self::default() };
+        if let Err(cause) = log.take_records(bytes) {
+            log.warnings.push(format!("the file is torn or damaged and was read up to there: {cause}"));
+        }
+        if log.columns.is_empty() {
+            return Err(ReadError::NoSamples { path: log.path });
+        }
+        if log.result.is_none() {
+            log.warnings.push("the run did not reach its end: there is no outcome, digest or summary".into());
+        }
+        Ok(log)
+    }
+
+    /// Something that identifies the run, empty if the file does not say it.
+    #[must_use]
+    pub fn says(&self, key: &str) -> &str {
+        self.run.get(key).map_or("", String::as_str)
+    }
+
+    /// How the run ended, in a word: `unfinished` if the file does not say it.
+    #[must_use]
+    pub fn outcome(&self) -> &str {
+        self.result.as_ref().and_then(|result| result.get("outcome")).map_or("unfinished", String::as_str)
+    }
+
+    fn take_records(&mut self, bytes: &[u8]) -> mcap::McapResult<()> {
+        let lenient = Options::IgnoreEndMagic | Options::ValidateChunkCrcs;
+        let mut schemas: BTreeMap<u16, String> = BTreeMap::new();
+        let mut channels: BTreeMap<u16, Carried> = BTreeMap::new();
+        for record in ChunkFlattener::new_with_options(bytes, lenient)? {
+            match record? {
+                Record::Schema { header, data } => {
+                    schemas.insert(header.id, String::from_utf8_lossy(&data).into_owned());
+                }
+                Record::Channel(channel) => {
+                    let schema = schemas.get(&channel.schema_id).map_or("", String::as_str);
+                    if let Some(carried) = Carried::by(&channel.topic, schema) {
+                        channels.entry(channel.id).or_insert(carried);
+                    }
+                }
+                Record::Message { header, data } => {
+                    if let Some(carried) = channels.get(&header.channel_id) {
+                        self.take_message(carried, &data);
+                    }
+                }
+                Record::Attachment { header, data, .. } => {
+                    self.take_attachment(header.name, &String::from_utf8_lossy(&data));
+                }
+                Record::Metadata(record) => self.take_metadata(record),
+                // What follows repeats what was read.
+                Record::DataEnd(_) => break,
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn take_message(&mut self, carried: &Carried, data: &[u8]) {
+        match carried {
+            Carried::Robot => self.urdf = Bytes::of(data).string().unwrap_or_default(),
+            Carried::Reference => self.reference = path_points(data).unwrap_or_default(),
+            Carried::Control(layout) => {
+                if let Some(row) = layout.decode(data) {
+                    self.columns.push(layout.names(), &row);
+                }
+            }
+        }
+    }
+
+    fn take_attachment(&mut self, name: String, text: &str) {
+        match name.as_str() {
+            "scenario.toml" => text.clone_into(&mut self.scenario_text),
+            "summary.json" => self.summary = serde_json::from_str(text).ok(),
+            _ => self.files.push((name, text.to_owned())),
+        }
+    }
+
+    fn take_metadata(&mut self, record: Metadata) {
+        match record.name.as_str() {
+            "mmsim" => self.run = record.metadata,
+            "mmsim.result" => self.result = Some(record.metadata),
+            _ => {}
+        }
+    }
+}
+
+impl Carried {
+    fn by(topic: &str, schema: &str) -> Option<Self> {
+        match topic {
+            "/robot_description" => Some(Self::Robot),
+            "/reference" => Some(Self::Reference),
+            "/control" => Layout::of(schema).map(Self::Control),
+            _ => None,
+        }
+    }
+}
+
+/// Times and positions of a `nav_msgs/msg/Path`; none if the message is shorter than it says.
+fn path_points(data: &[u8]) -> Option<Vec<[f64; 4]>> {
+    let mut bytes = Bytes::of(data);
+    bytes.header()?;
+    let count = bytes.u32()?;
+    (0..count)
+        .map(|_| {
+            let t = bytes.header()?;
+            let [x, y, z] = [bytes.f64()?, bytes.f64()?, bytes.f64()?];
+            for _ in 0..4 {
+                bytes.f64()?;
+            }
+            Some([t, x, y, z])
+        })
+        .collect()
+}
