@@ -28,8 +28,7 @@ impl<T: Real, const N: usize> OuterLoop<T, N> {
         let (jacobian, jacobian_rate) = (&solution.jacobian, &solution.jacobian_rate);
         let (squared, rate) = determinant((jacobian, jacobian_rate), (&share, &share_rate));
         let (damping, damping_rate) = self.damping(squared, rate);
-        let times = |a: Velocity<T, N>| a.zip(self.inverse_weights, |a, b| a * b);
-        solution.weights = times(share);
+        solution.weights = share.zip(self.inverse_weights, |a, b| a * b);
         solution.base_rates =
             (base.rate * self.inverse_weights.forward, base.rate * self.inverse_weights.yaw_rate);
         solution.damping_rate = damping_rate;

@@ -100,12 +100,13 @@ fn an_observer_faster_than_its_clock_is_refused() {
 
 #[test]
 fn a_gain_that_is_too_fast_for_the_period_is_refused() {
-    let build = |change: fn(&mut StackParams<f64, 3>, f64), rate: f64| {
+    type Change = fn(&mut StackParams<f64, 3>, f64);
+    let build = |change: Change, rate: f64| {
         let mut params = params();
         change(&mut params, rate);
         ControlStack::try_new(thesis::<f64>(), LawKind::Bfsmc, params).err()
     };
-    let changes: [(&str, fn(&mut StackParams<f64, 3>, f64)); 3] = [
+    let changes: [(&str, Change); 3] = [
         ("position_gain_1_s", |params, rate| params.outer.position_gain.y = rate),
         ("sliding_gain_1_s", |params, rate| params.outer.sliding_gain.joints[1] = rate),
         ("posture_gain_1_s", |params, rate| params.outer.posture_gain = rate),

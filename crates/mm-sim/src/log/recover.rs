@@ -44,8 +44,8 @@ impl Recovered {
 ///
 /// # Errors
 ///
-/// [`LogError::Read`] if `from` cannot be read, is no MCAP file or holds no message; [`LogError::Recover`] if `to` cannot be
-/// written.
+/// [`LogError::Read`] if `from` cannot be read or is no MCAP file, [`LogError::Empty`] if it holds no message, [`LogError::Create`] and
+/// [`LogError::Write`] if `to` cannot be written.
 pub fn recover(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     let unreadable = |source| LogError::Read { path: from.to_owned(), source };
     let source = File::open(from).map_err(|error| unreadable(error.into()))?;

@@ -2,8 +2,11 @@
 
 use super::schema::{self, Schema};
 
+/// A name, and what makes its schema.
+type Topic = (&'static str, fn() -> Schema);
+
 /// Topics and their types, in the order of their channels.
-pub(super) static TOPICS: [(&str, fn() -> Schema); 8] = [
+pub(super) static TOPICS: [Topic; 8] = [
     ("/robot_description", schema::string),
     ("/reference", schema::path),
     ("/tf", schema::tf_message),

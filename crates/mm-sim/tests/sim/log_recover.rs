@@ -4,6 +4,8 @@
 //! the exit code says whether something that was complete is missing. Why: a log is all that is left of a run that was killed.
 //! Reference: the chunks of the original, read by the `mcap` crate. No tolerance.
 
+#![expect(clippy::expect_used, reason = "a helper that cannot go on is a failed test")]
+
 use crate::common::command::{Folder, complete_log};
 use mcap::read::{ChunkReader, LinearReader, Options};
 use mcap::records::Record;
