@@ -114,7 +114,7 @@ pub(crate) fn run() -> Result<ExitCode> {
 /// it fails, the step that needs them tries again and says why.
 fn fetch_ahead() {
     drop(tools::require(&tools::ALL));
-    for prepare in [fuzzy_peers::prepare, wheel::prepare] {
+    for prepare in [fuzzy_peers::prepare, wheel::prepare, report::prepare] {
         drop(prepare());
     }
 }

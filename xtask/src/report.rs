@@ -1,32 +1,34 @@
 //! Opens reports in a browser without a window: `tests/report`, run in a virtual environment of its own, with Debian's Chromium.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
 use crate::mmsim::Mmsim;
 use crate::python::environment;
-use crate::shell::{answers, command, install, root, target_directory, watch};
+use crate::shell::{command, root, target_directory, watch};
+use crate::tools::{CHROMIUM, require};
 
 /// Where the tests and the list of their packages are, from the root of the workspace.
 const TESTS: &str = "tests/report";
-/// The browser, and Debian's package of it.
-const BROWSER: &str = "chromium";
 
 /// A scenario whose name and text would be elements, if they were not text.
 const HOSTILE: &str = "# </script></pre><script>alert(3)</script>\n\
     name = '<script>alert(1)<!--<img src=x onerror=alert(2)>'\n\
     [simulation]\nduration_s = 0.5\n[trajectory]\nkind = \"square\"\n";
 
+/// The environment of the tests; its Python.
+pub(crate) fn prepare() -> Result<PathBuf> {
+    environment(&target_directory()?.join("report-python"), &root().join(TESTS).join("requirements.txt"))
+}
+
 /// Makes the reports and tries them; `see` gets each line that the tests print.
 pub(crate) fn check(mmsim: &Mmsim, see: impl FnMut(&str)) -> Result<()> {
-    if !answers(BROWSER, &["--version"]) {
-        install(&[BROWSER])?;
-    }
+    require(&[CHROMIUM])?;
     let target = target_directory()?;
     let folder = target.join("report");
     make(mmsim, &folder)?;
-    let python = environment(&target.join("report-python"), &root().join(TESTS).join("requirements.txt"))?;
+    let python = prepare()?;
     let mut tests = command(python);
     tests.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", TESTS]);
     tests.env("REPORT_FOLDER", &folder).env("PYTHONDONTWRITEBYTECODE", "1");

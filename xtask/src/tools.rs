@@ -19,9 +19,10 @@ pub(crate) const ARM_C: Tool =
     Tool { program: "arm-none-eabi-gcc", packages: &["gcc-arm-none-eabi", "libnewlib-arm-none-eabi"] };
 /// With the C library's symbols, without which it does not start.
 pub(crate) const VALGRIND: Tool = Tool { program: "valgrind", packages: &["valgrind", "libc6-dbg"] };
+pub(crate) const CHROMIUM: Tool = Tool { program: "chromium", packages: &["chromium"] };
 
 /// What the checks take.
-pub(crate) const ALL: [Tool; 4] = [QEMU_ARM, QEMU_RISCV, ARM_C, VALGRIND];
+pub(crate) const ALL: [Tool; 5] = [QEMU_ARM, QEMU_RISCV, ARM_C, VALGRIND, CHROMIUM];
 
 /// Held while tools are installed: who asks for one that is on its way waits for it.
 static INSTALLING: Mutex<()> = Mutex::new(());
