@@ -28,7 +28,7 @@ struct Tests {
 type Step = (&'static str, fn(&mut Tests) -> Result<End>);
 
 const STEPS: [Step; 14] = [
-    ("format", |_| cargo_step(&["fmt", "--all", "--check"])),
+    ("format", |_| format()),
     ("clippy", |_| {
         cargo_step(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])
     }),
@@ -122,6 +122,15 @@ fn fetch_ahead() {
 /// Turns the verdict of another job into that of a step.
 fn well(code: ExitCode) -> Result<End> {
     ensure!(code == ExitCode::SUCCESS, "see above");
+    Ok(End::Done)
+}
+
+/// All workspaces: this one, that of the microcontrollers and that of the fuzz targets.
+fn format() -> Result<End> {
+    for manifest in ["Cargo.toml", "firmware/Cargo.toml", "fuzz/Cargo.toml"] {
+        let manifest = format!("--manifest-path={manifest}");
+        run_command(&mut cargo(&["fmt", "--all", "--check", &manifest]))?;
+    }
     Ok(End::Done)
 }
 

@@ -43,11 +43,12 @@ const MACHINES: [Machine; 3] = [M4F, M3, M0];
 type Numbers = BTreeMap<&'static str, u64>;
 
 /// The motions; the first is the usual one.
-const MOTIONS: [&str; 8] = [
+const MOTIONS: [&str; 9] = [
     "control-cruise",
     "control-stretched",
     "control-bound",
     "control-corner",
+    "control-stalled",
     "control-limits",
     "control-far",
     "control-rest",

@@ -28,7 +28,7 @@ use crate::laws::{EffectiveInertia, InnerLaw, Law};
 use crate::{ControlError, ControlStack, ControlState, Input, Measurement, Output, Reference, SetupError};
 use braking::Braking;
 use machine::{Machine, Patience};
-use plausibility::{Believed, Plausibility};
+use plausibility::{Believed, Doubt, Plausibility};
 
 /// A control stack under a supervisor: never an error, always a torque that can be applied.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,8 +44,8 @@ pub struct SupervisedStack<T: Real, const N: usize, L = Law<T, N>> {
 pub struct SupervisedState<T, const N: usize> {
     control: ControlState<T, N>,
     machine: Machine,
-    /// Nothing to count, to wait for or to doubt: the next update may be an ordinary one.
-    calm: bool,
+    /// Nothing to count and to wait for: the next update may be an ordinary one.
+    settled: bool,
     /// Whether a state, and a reference, was ever believed.
     seen: bool,
     aimed: bool,
@@ -56,7 +56,7 @@ pub struct SupervisedState<T, const N: usize> {
     /// Where the model says that the robot is, if a time has passed since.
     predicted: (Configuration<T, N>, Velocity<T, N>),
     /// How far each coordinate should have moved while it did not, m and rad.
-    doubt: Velocity<T, N>,
+    doubt: Doubt<T, N>,
     /// Posture at the beginning of the stop, rad.
     posture: [T; N],
     /// What the law had learned of the joints' loads while no coordinate was in doubt, N m.
@@ -100,7 +100,7 @@ where
         SupervisedState {
             control: self.stack.initial_state(),
             machine: Machine::default(),
-            calm: false,
+            settled: false,
             seen: false,
             aimed: false,
             torque: Torque::zero(),
@@ -110,7 +110,7 @@ where
                 reference: Vector3::new(T::ZERO, T::ZERO, T::ZERO),
             },
             predicted: (Configuration::zero(), Velocity::zero()),
-            doubt: Velocity::zero(),
+            doubt: Doubt::none(),
             posture: [T::ZERO; N],
             load: [T::ZERO; N],
             since: T::ZERO,

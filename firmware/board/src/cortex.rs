@@ -1,5 +1,8 @@
 //! What all Cortex-M have: the way in, the timer SysTick, faults.
-#![expect(unsafe_code, reason = "the runtime wants the handler of faults to be unsafe to call; the timer is taken without asking")]
+#![expect(
+    unsafe_code,
+    reason = "the runtime wants the handler of faults to be unsafe to call; the timer is taken without asking"
+)]
 
 use core::fmt::Write;
 

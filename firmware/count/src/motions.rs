@@ -38,11 +38,12 @@ pub(crate) struct Motion {
 /// | stretched | the arm upright, near a singularity: damping, climb of the manipulability |
 /// | bound | one joint near its limit, asked to go on: its rate bounded, the others take over |
 /// | corner | two joints near their limits, the others take over what they can: the longest way there is |
+/// | stalled | the same, and nothing moves: the supervisor looks closely, and at the weight of the arm, until it stops |
 /// | limits | all joints near their limits and the base at its largest speed: everything held, one after the other |
 /// | far | a reference far away: correction at its largest speed, torques at their limits |
 /// | rest | nothing moves: the supervisor looks closely |
 /// | faulty | every third input is not a number, too old, too early, or too late: held, and stopped |
-pub(crate) const MOTIONS: [Motion; 8] = [
+pub(crate) const MOTIONS: [Motion; 9] = [
     Motion {
         name: "cruise",
         joints: [0.3, 1.0, -2.0],
@@ -75,6 +76,15 @@ pub(crate) const MOTIONS: [Motion; 8] = [
         joints: [-3.13, -0.34, 2.41],
         swing: 0.005,
         speed: 0.2,
+        ahead: 0.4,
+        reference_speed: 0.2,
+        faulty_every: 0,
+    },
+    Motion {
+        name: "stalled",
+        joints: [-3.13, -0.34, 2.41],
+        swing: 0.0,
+        speed: 0.0,
         ahead: 0.4,
         reference_speed: 0.2,
         faulty_every: 0,

@@ -40,11 +40,8 @@ mod program {
     fn run(board: &mut Board) -> bool {
         let clock = Timer(&board.clock);
         let loop_ticks = looped(&clock, LOOP).saturating_sub(looped(&clock, 0));
-        let mut node = Node::new(Identity {
-            target: board::NAME,
-            ticks_per_second: board::CLOCK_HZ,
-            loop_ticks,
-        });
+        let mut node =
+            Node::new(Identity { target: board::NAME, ticks_per_second: board::CLOCK_HZ, loop_ticks });
         let mut port = Wire(&mut board.serial);
         loop {
             if !node.poll(&mut port, &clock) {

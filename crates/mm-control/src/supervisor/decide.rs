@@ -4,7 +4,7 @@ use mm_model::{Configuration, Mechanism, Real, Robot, Torque, Velocity};
 
 use super::braking::limited;
 use super::machine::Brought;
-use super::plausibility::Clocked;
+use super::plausibility::{Believed, Clocked, Doubt};
 use super::{Command, Findings, Mode, SupervisedStack, SupervisedState, Timing, Verdict};
 use crate::laws::InnerLaw;
 use crate::{Input, Measurement, Reference};
@@ -33,12 +33,37 @@ where
         input: &Input<T, N>,
     ) -> Verdict {
         let Input { q, nu, reference } = input;
-        if state.calm && self.plausibility.is_ordinary(&state.believed, timing, (q, nu), reference) {
-            (state.believed.q, state.believed.nu) = (*q, *nu);
-            state.believed.reference = reference.position;
-            return Verdict::Run(Findings::NONE);
+        if state.settled {
+            let (ordinary, moves) =
+                self.plausibility.is_ordinary(&state.believed, timing, (q, nu), reference);
+            if ordinary && (moves && state.doubt.is_none() || self.stands(state, (q, nu), timing.elapsed)) {
+                (state.believed.q, state.believed.nu) = (*q, *nu);
+                state.believed.reference = reference.position;
+                return Verdict::Run(Findings::NONE);
+            }
         }
         self.examine(state, timing, input)
+    }
+
+    /// Whether an otherwise ordinary update in which a coordinate did not change may be one of a robot at rest; if so, the doubts are
+    /// stored.
+    #[inline(never)]
+    fn stands(
+        &self,
+        state: &mut SupervisedState<T, N>,
+        state_now: (&Configuration<T, N>, &Velocity<T, N>),
+        elapsed: T,
+    ) -> bool {
+        let doubt = self.doubt(state, state_now, elapsed);
+        if self.plausibility.is_frozen(&doubt) {
+            return false;
+        }
+        // While nothing is doubtful, what is learned need not be noted: it can be read where it is learned.
+        if self.plausibility.is_doubtful(&doubt) {
+            self.note_load(state);
+        }
+        state.doubt = doubt;
+        true
     }
 
     /// The same number by number.
@@ -149,10 +174,9 @@ where
         if state.machine.mode == Mode::Run {
             if stopped {
                 state.control = self.stack.restarted(&state.control);
-                state.doubt = Velocity::zero();
+                state.doubt = Doubt::none();
             }
-            state.calm =
-                state.seen && state.aimed && state.doubt.channels().all(|doubt| doubt.abs() <= T::ZERO);
+            state.settled = state.seen && state.aimed;
             return Verdict::Run(findings);
         }
         Verdict::Safe(findings)
@@ -174,7 +198,7 @@ where
         if state.machine.mode == Mode::Stop && before != Mode::Stop {
             state.posture = state.whereabouts().0.joints;
         }
-        state.calm = false;
+        state.settled = false;
     }
 
     /// Keeps what the law has learned of the joints' loads, unless it may have learned it from a sensor that stands still.
@@ -213,39 +237,69 @@ where
     fn frozen(
         &self,
         state: &mut SupervisedState<T, N>,
-        (q, nu): (&Configuration<T, N>, &Velocity<T, N>),
+        state_now: (&Configuration<T, N>, &Velocity<T, N>),
         elapsed: T,
     ) -> Findings {
         if !state.seen {
             return Findings::NONE;
         }
-        let strained = self.strained(state);
-        state.doubt =
-            self.plausibility.doubt(&state.doubt, (&state.believed.q, q), &nu.scaled(elapsed), &strained);
+        state.doubt = self.doubt(state, state_now, elapsed);
         if self.plausibility.is_frozen(&state.doubt) { Findings::STATE_FROZEN } else { Findings::NONE }
     }
 
-    /// One for each channel that is pushed with more than half of what its actuators can, its weight not counted; else zero.
-    fn strained(&self, state: &SupervisedState<T, N>) -> Velocity<T, N> {
-        let robot = self.stack.robot();
-        let limits = &robot.params().limits;
-        let Torque { right, left, joints } = &state.torque;
-        let flag = |is: bool| if is { T::ONE } else { T::ZERO };
+    /// How far each coordinate should have moved while it did not, m and rad; zero for one that changed.
+    ///
+    /// A coordinate that stands is strained if it is pushed with more than half of what its actuators can, its weight not counted.
+    #[inline(always)]
+    fn doubt(
+        &self,
+        state: &SupervisedState<T, N>,
+        (q, nu): (&Configuration<T, N>, &Velocity<T, N>),
+        elapsed: T,
+    ) -> Doubt<T, N> {
+        let limits = &self.stack.robot().params().limits;
+        let SupervisedState {
+            doubt: Doubt { of: doubt, .. },
+            torque,
+            believed: Believed { q: before, .. },
+            ..
+        } = state;
         let hard = |torque: T, limit: T| torque.abs() > T::HALF * limit;
-        let wheels = limits.wheel_torque + limits.wheel_torque;
-        let mut strained = Velocity {
-            forward: flag(hard(*right + *left, wheels)),
-            yaw_rate: flag(hard(*right - *left, wheels)),
-            joints: [T::ZERO; N],
-        };
-        if joints.iter().zip(&limits.joint_torque).any(|(torque, limit)| hard(*torque, *limit)) {
-            let load = robot.gravity(&robot.inertia(&robot.posture(&state.believed.q.joints)));
-            let pairs = joints.iter().zip(load.joints).zip(&limits.joint_torque);
-            for (strain, ((torque, load), limit)) in strained.joints.iter_mut().zip(pairs) {
-                *strain = flag(hard(*torque - load, *limit));
+        // Half of what both wheels can together.
+        let wheels = limits.wheel_torque;
+        let mut next = Velocity::zero();
+        if before.x == q.x && before.y == q.y {
+            let strained = (torque.right + torque.left).abs() > wheels;
+            next.forward = self.plausibility.doubt(doubt.forward, nu.forward * elapsed, strained);
+        }
+        if before.heading == q.heading {
+            let strained = (torque.right - torque.left).abs() > wheels;
+            next.yaw_rate = self.plausibility.doubt(doubt.yaw_rate, nu.yaw_rate * elapsed, strained);
+        }
+        let mut stands = false;
+        for (before, now) in before.joints.iter().zip(&q.joints) {
+            stands = stands || before == now;
+        }
+        if stands {
+            let (joints, mut strained) = (&torque.joints, [false; N]);
+            if joints.iter().zip(&limits.joint_torque).any(|(torque, limit)| hard(*torque, *limit)) {
+                let robot = self.stack.robot();
+                let load = robot.gravity(&robot.inertia(&robot.posture(&before.joints))).joints;
+                let pairs = joints.iter().zip(load).zip(&limits.joint_torque);
+                for (strained, ((torque, load), limit)) in strained.iter_mut().zip(pairs) {
+                    *strained = hard(*torque - load, *limit);
+                }
+            }
+            let pairs = before.joints.iter().zip(&q.joints).zip(nu.joints);
+            for ((next, doubt), (((before, now), rate), strained)) in
+                next.joints.iter_mut().zip(doubt.joints).zip(pairs.zip(strained))
+            {
+                if before == now {
+                    *next = self.plausibility.doubt(doubt, rate * elapsed, strained);
+                }
             }
         }
-        strained
+        Doubt::new(next)
     }
 
     /// The command where the law may not run.

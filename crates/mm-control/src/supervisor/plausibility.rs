@@ -20,8 +20,9 @@ pub(super) struct Plausibility<T, const N: usize> {
     /// Earliest and latest update that is on time, s.
     on_time: (T, T),
     near: Squares<T>,
-    /// How much of a doubt stays after an update.
+    /// How much of a doubt stays after an update, and what one in which a coordinate is pushed hard adds, m and rad.
     memory: T,
+    push: T,
 }
 
 /// Squares of what is certainly within the limits.
@@ -44,6 +45,14 @@ pub(super) struct Believed<T, const N: usize> {
     pub(super) reference: Vector3<T>,
 }
 
+/// How far each coordinate should have moved while it did not, m and rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Doubt<T, const N: usize> {
+    pub(super) of: Velocity<T, N>,
+    /// The largest of them, by its amount.
+    largest: T,
+}
+
 /// What the clock says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Clocked<T> {
@@ -52,6 +61,26 @@ pub(super) struct Clocked<T> {
     pub(super) elapsed: T,
     /// Whole updates that are missing.
     pub(super) missing: u32,
+}
+
+impl<T: Real, const N: usize> Doubt<T, N> {
+    pub(super) fn none() -> Self {
+        Self { of: Velocity::zero(), largest: T::ZERO }
+    }
+
+    #[inline]
+    pub(super) fn new(of: Velocity<T, N>) -> Self {
+        let mut largest = of.forward.abs().max(of.yaw_rate.abs());
+        for joint in &of.joints {
+            largest = largest.max(joint.abs());
+        }
+        Self { of, largest }
+    }
+
+    #[inline]
+    pub(super) fn is_none(&self) -> bool {
+        self.largest <= T::ZERO
+    }
 }
 
 impl<T: Real, const N: usize> Plausibility<T, N> {
@@ -76,6 +105,7 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
                 step: square(params.reference_step),
                 reference_acceleration: square(params.reference_acceleration),
             },
+            push: params.position_noise / T::from_u32(STRAINED),
             memory: (T::ONE - period / T::from_f64(MEMORY)).max(T::ZERO),
         }
     }
@@ -84,9 +114,8 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
         &self.params
     }
 
-    /// Whether an update that follows an ordinary one is ordinary too: on time, and within every limit by a wide margin.
-    ///
-    /// The product of all changes is zero where a coordinate repeats itself: then, too, somebody has to look closer.
+    /// Whether an update that follows an ordinary one is ordinary too: on time, and within every limit by a wide margin. And whether every
+    /// coordinate has changed since, the position of the base as one: where one stands still, somebody has to look closer.
     #[inline(always)]
     pub(super) fn is_ordinary(
         &self,
@@ -94,23 +123,23 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
         timing: Timing<T>,
         (q, nu): (&Configuration<T, N>, &Velocity<T, N>),
         reference: &Reference<T>,
-    ) -> bool {
+    ) -> (bool, bool) {
         let near = &self.near;
         let on_time = timing.elapsed >= self.on_time.0
             && timing.elapsed <= self.on_time.1
             && timing.age.abs() <= self.params.age;
         let (dx, dy, turn) = (q.x - last.q.x, q.y - last.q.y, q.heading - last.q.heading);
-        let base = dx * dx + dy * dy;
-        let (mut moved, mut changed, mut in_range) = (base + turn * turn, base * turn, true);
+        let (mut moved, mut in_range) = (dx * dx + dy * dy + turn * turn, true);
+        let mut moves = (dx != T::ZERO || dy != T::ZERO) && turn != T::ZERO;
         for ((&now, before), &(middle, half)) in q.joints.iter().zip(last.q.joints).zip(&self.range) {
             let way = now - before;
             moved += way * way;
-            changed *= way;
+            moves = moves && way != T::ZERO;
             in_range = in_range && (now - middle).abs() <= half;
         }
         let (speed, accelerated) = (sum_of_squares(nu), sum_of_squares(&nu.minus(last.nu)));
         let Reference { position, velocity, acceleration } = reference;
-        on_time
+        let ordinary = on_time
             && in_range
             && moved <= near.moved
             && accelerated <= near.accelerated
@@ -118,8 +147,8 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
             && q.x * q.x + q.y * q.y + squared(position) <= near.origin
             && squared(&(position - last.reference)) <= near.step
             && squared(velocity) <= near.speed
-            && squared(acceleration) <= near.reference_acceleration
-            && changed != T::ZERO
+            && squared(acceleration) <= near.reference_acceleration;
+        (ordinary, moves)
     }
 
     /// Reads the clock; `waited` is the time of early updates before this one, which were not used, s.
@@ -222,48 +251,30 @@ impl<T: Real, const N: usize> Plausibility<T, N> {
         (can_be, follows)
     }
 
-    /// How far each coordinate should have moved while it kept the very same bits, m and rad; zero for one that changed.
+    /// How far a coordinate should have moved while it kept the very same bits, m and rad, after an update in which it kept them.
     ///
-    /// d <- (1 - T/0.256 s) d + nu elapsed, signed, so that the noise of a velocity at rest goes to and fro. `strained` names the
-    /// coordinates that are pushed hard and do not move: they are given 1/16 of the noise an update. Beyond the noise a doubt stays
-    /// until the coordinate moves.
-    pub(super) fn doubt(
-        &self,
-        doubt: &Velocity<T, N>,
-        (before, now): (&Configuration<T, N>, &Configuration<T, N>),
-        way: &Velocity<T, N>,
-        strained: &Velocity<T, N>,
-    ) -> Velocity<T, N> {
-        let stays = |before: T, after: T| before == after;
+    /// d <- (1 - T/0.256 s) d + nu elapsed, signed, so that the noise of a velocity at rest goes to and fro. A coordinate that is pushed
+    /// hard and does not move is given 1/16 of the noise an update. Beyond the noise a doubt stays until the coordinate moves.
+    #[inline]
+    pub(super) fn doubt(&self, doubt: T, way: T, strained: bool) -> T {
         let noise = self.params.position_noise;
-        let push = noise / T::from_u32(STRAINED);
-        let mut next =
-            way.zip(*doubt, |way, doubt| if doubt.abs() > noise { doubt } else { doubt * self.memory + way });
-        next =
-            next.zip(*strained, |doubt, strain| doubt + strain * if doubt < T::ZERO { -push } else { push });
-        if !(stays(before.x, now.x) && stays(before.y, now.y)) {
-            next.forward = T::ZERO;
+        let next = if doubt.abs() > noise { doubt } else { doubt * self.memory + way };
+        if !strained {
+            return next;
         }
-        if !stays(before.heading, now.heading) {
-            next.yaw_rate = T::ZERO;
-        }
-        for ((doubt, before), after) in next.joints.iter_mut().zip(before.joints).zip(now.joints) {
-            if !stays(before, after) {
-                *doubt = T::ZERO;
-            }
-        }
-        next
+        if next < T::ZERO { next - self.push } else { next + self.push }
     }
 
     /// Whether a doubt has become certainty.
-    pub(super) fn is_frozen(&self, doubt: &Velocity<T, N>) -> bool {
-        doubt.channels().any(|doubt| !(doubt.abs() <= self.params.position_noise))
+    #[inline]
+    pub(super) fn is_frozen(&self, doubt: &Doubt<T, N>) -> bool {
+        !(doubt.largest <= self.params.position_noise)
     }
 
     /// Whether a doubt is larger than a sensor's resolution explains: 1/16 of what makes it certain.
-    pub(super) fn is_doubtful(&self, doubt: &Velocity<T, N>) -> bool {
-        let some = self.params.position_noise / T::from_u32(STRAINED);
-        doubt.channels().any(|doubt| !(doubt.abs() <= some))
+    #[inline]
+    pub(super) fn is_doubtful(&self, doubt: &Doubt<T, N>) -> bool {
+        !(doubt.largest <= self.push)
     }
 
     /// The time that a change is measured against, s: one and a half of what has passed, at least of a period.
