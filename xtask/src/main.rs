@@ -10,6 +10,7 @@ mod count;
 mod fuzz;
 mod fuzzy_peers;
 mod grid;
+mod live;
 mod log_kill;
 mod mmsim;
 mod parallel;
@@ -55,6 +56,7 @@ cargo xtask <job>
   wheel               the Python package: wheel and sdist into target/wheels, installed alone and tried
                       [--test: its tests, with packages from PyPI] [--quick: a wheel that is quickly linked, for its tests]
   report              opens reports in Debian's Chromium: silent, the slider moves the robot, every plot has data [--mmsim FILE]
+  live                watches runs served by a build with the feature `live`, with a client from PyPI
   real-time           simulated seconds per second of CPU time [--runs N]
 ";
 
@@ -101,6 +103,10 @@ fn run() -> Result<ExitCode> {
             arguments.finish()?;
             report::check(&mmsim::Mmsim::find(command, mmsim::Profile::TestRelease)?, |_| ())?;
             ExitCode::SUCCESS
+        }
+        "live" => {
+            arguments.finish()?;
+            live::run()?
         }
         "grid" => {
             let command = arguments.value("--mmsim")?;

@@ -21,6 +21,7 @@ mod table;
 mod tune;
 
 use std::ffi::OsString;
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
@@ -86,7 +87,7 @@ enum Command {
     #[command(subcommand)]
     Fis(fis::FisCommand),
     /// Say what is in a log, and make a whole one of what a killed run left.
-    #[command(subcommand)]
+    #[command(subcommand, after_help = examples::LOG)]
     Log(log::LogCommand),
     /// Take a robot from a URDF, or write one.
     #[command(subcommand, after_help = examples::ROBOT)]
@@ -140,6 +141,22 @@ struct RunArgs {
     /// Controller to use instead of the scenario's.
     #[arg(long, value_name = "KIND", value_parser = kinds())]
     controller: Option<String>,
+    /// Serve the run to viewers (Foxglove, Lichtblick) while it goes on, gains to be changed included; it begins with the first viewer.
+    /// In builds with the feature `live`.
+    #[arg(long)]
+    live: bool,
+    /// Where viewers connect; other addresses than loopback open the gains to whoever reaches them.
+    #[arg(long, value_name = "IP:PORT", default_value = "127.0.0.1:8765", requires = "live")]
+    live_address: SocketAddr,
+    /// Simulated seconds per second; `inf` for as fast as it goes.
+    #[arg(long, value_name = "X", default_value = "1", requires = "live", value_parser = speed)]
+    live_speed: f64,
+}
+
+/// A positive number, or infinity.
+fn speed(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().map_err(|error| error.to_string())?;
+    if number > 0.0 { Ok(number) } else { Err("must be above zero".to_owned()) }
 }
 
 #[derive(Debug, Clone, Args)]

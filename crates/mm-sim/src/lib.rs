@@ -14,6 +14,7 @@ pub mod faults;
 pub mod figures;
 pub mod hardware;
 pub mod imposed;
+pub mod live;
 pub mod log;
 pub mod metrics;
 pub mod monitors;

@@ -21,6 +21,8 @@
 mod arrows;
 mod cdr;
 mod control;
+mod convert;
+mod encoder;
 mod error;
 mod frames;
 mod header;
@@ -50,3 +52,10 @@ pub use scan::{Damage, End, Scan};
 pub use topics::topics;
 pub use urdf::{RobotShape, urdf, urdf_with_limits};
 pub use writer::LogWriter;
+#[cfg(feature = "live")]
+pub(crate) use {
+    convert::{Converter, with_header},
+    encoder::{Encoder, Message},
+    schema::{MESSAGE_ENCODING, SCHEMA_ENCODING},
+    topics::{PerTopic, Topic},
+};

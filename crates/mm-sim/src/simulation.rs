@@ -7,8 +7,10 @@ mod runaway;
 
 pub use controller::{Controller, Own};
 pub use guard::{Found, Guard, SupervisorReport};
-pub use outcome::{ASK_EVERY, Ending, NoRecorder, Recorder, RunResult, Sample};
+pub use outcome::{ASK_EVERY, Ending, NoRecorder, Recorder, Retuned, RunResult, Sample};
 pub(crate) use runaway::runaway;
+
+use std::borrow::Cow;
 
 use mm_control::{ControlStack, Input, Output, Reference, Signals, required_gain};
 use mm_model::{Force, Mechanism, Torque};
@@ -116,6 +118,7 @@ struct AtPlant {
 /// A run under way.
 struct Run<'a> {
     simulation: &'a Simulation,
+    stack: Cow<'a, ControlStack<f64, 3>>,
     control: mm_control::ControlState<f64, 3>,
     hardware: Option<Box<Running<'a>>>,
     guard: Option<Box<guard::Running<'a>>>,
@@ -134,6 +137,7 @@ impl<'a> Run<'a> {
         let authority = simulation.stack.law().authority();
         Self {
             simulation,
+            stack: Cow::Borrowed(&simulation.stack),
             control: simulation.stack.initial_state(),
             hardware: simulation.hardware.as_ref().map(|hardware| {
                 Box::new(Running::new(hardware, simulation.plant.robot(), &simulation.initial))
@@ -159,7 +163,8 @@ impl<'a> Run<'a> {
         recorder: &mut R,
         controller: &mut C,
     ) -> Result<Option<Ending>, R::Error> {
-        let Simulation { stack, plant, trajectory, clock, .. } = self.simulation;
+        let Simulation { plant, trajectory, clock, .. } = self.simulation;
+        let stack = &*self.stack;
         let t = clock.time(tick);
         let reference = trajectory.at(t);
         let PlantState { q, nu, .. } = self.state;
@@ -211,6 +216,9 @@ impl<'a> Run<'a> {
             if !recorder.record(&sample)? {
                 return Ok(Some(Ending::Stopped { t }));
             }
+            if let Some(retuned) = recorder.retuned() {
+                self.retune(*retuned);
+            }
         }
         if C::MOVES {
             match controller.advance((t, clock.period), &self.state, &at_plant.torque) {
@@ -221,6 +229,15 @@ impl<'a> Run<'a> {
             self.advance(t, sines, &at_plant.torque);
         }
         Ok(None)
+    }
+
+    /// Goes on with another controller, from the next tick.
+    #[cold]
+    fn retune(&mut self, Retuned { stack, supervised }: Retuned) {
+        if let Some(guard) = &mut self.guard {
+            guard.retune(stack, supervised);
+        }
+        self.stack = Cow::Owned(stack);
     }
 
     #[inline]
@@ -263,12 +280,12 @@ impl<'a> Run<'a> {
         (output, at_plant): (&'b Output<f64, 3>, &'b AtPlant),
         manipulability_squared: f64,
     ) -> Sample<'b> {
-        let Simulation { stack, plant, .. } = self.simulation;
+        let plant = &self.simulation.plant;
         let external = plant.external(t, sines);
         let nu = &self.state.nu;
         let required =
             if self.reaches { self.required_gain(t, sines, output, external) } else { Force::zero() };
-        let c = &stack.outer().params().sliding_gain;
+        let c = &self.stack.outer().params().sliding_gain;
         let lyapunov =
             Lyapunov::evaluate(plant.robot_at(t), (sines, nu), (output, &at_plant.torque), &external, c);
         self.monitors.sample(&lyapunov, &required);
@@ -298,8 +315,8 @@ impl<'a> Run<'a> {
         output: &Output<f64, 3>,
         external: Force<f64, 3>,
     ) -> Force<f64, 3> {
-        let Simulation { stack, plant, .. } = self.simulation;
-        let robot = plant.robot_at(t);
+        let stack = &*self.stack;
+        let robot = self.simulation.plant.robot_at(t);
         let signals: &Signals<f64, 3> = &output.signals;
         let cut = robot.force_of(&output.torque).minus(robot.force_of(&signals.commanded));
         required_gain(

@@ -19,7 +19,25 @@ pub(super) const RUN: &str = "Examples:
   mmsim run --scenario square.toml                              summary, and the log out/square.mcap
   mmsim run --scenario square --controller bsmc --json          the summary as JSON
   mmsim run --scenario square --set plant.payload_kg=2 --no-log
-  mmsim run --scenario square --out - > square.mcap             the log alone on standard output";
+  mmsim run --scenario square --out - > square.mcap             the log alone on standard output
+  mmsim run --scenario square --live                            watched in Foxglove or Lichtblick while it goes on";
+
+pub(super) const LOG: &str = "Examples:
+  mmsim log info out/square.mcap
+  mmsim log recover out/square.mcap";
+
+pub(super) const LOG_INFO: &str = "Examples:
+  mmsim log info out/square.mcap               is it whole, what ran, how it ended, what is in it
+  mmsim log info out/square.mcap --json
+
+Exit codes: 0 whole, 1 unreadable, 2 bad usage, 3 readable, but torn or damaged";
+
+pub(super) const LOG_RECOVER: &str = "Examples:
+  mmsim log recover out/square.mcap            what a killed run left, in out/square.recovered.mcap
+  mmsim log recover torn.mcap -o whole.mcap
+
+Exit codes: 0 the log was whole, or every record that was complete in it is in the new one; 1 nothing could be read, or the new log not
+written; 2 bad usage; 3 recovered, but without records that are damaged";
 
 pub(super) const COMPARE: &str = "Examples:
   mmsim compare --scenario square-compare --controllers bsmc,bfsmc

@@ -7,7 +7,7 @@ use clap::{Args, Subcommand};
 use serde_json::{Value, json};
 
 use super::run::with_causes;
-use super::{Exit, complain, print};
+use super::{Exit, complain, examples, print};
 use crate::log::{self, End, LogError, LogInfo, RECOVERED, Recovered, Scan};
 
 /// Name and version of the format of `mmsim log info --json`.
@@ -19,13 +19,10 @@ const MAX_NAMED: usize = 10;
 #[derive(Debug, Subcommand)]
 pub(super) enum LogCommand {
     /// Say what is in a log, and whether it is whole.
-    #[command(after_help = "Exit codes: 0 whole, 1 unreadable, 2 bad usage, 3 readable, but torn or damaged")]
+    #[command(after_help = examples::LOG_INFO)]
     Info(InfoArgs),
     /// Write what a torn or damaged log still holds to a new, whole one.
-    #[command(
-        after_help = "Exit codes: 0 the log was whole, or every record that was complete in it is in the new one;\n\
-        1 nothing could be read, or the new log not written; 2 bad usage; 3 recovered, but without records that are damaged"
-    )]
+    #[command(after_help = examples::LOG_RECOVER)]
     Recover(RecoverArgs),
 }
 
@@ -174,10 +171,11 @@ fn seconds(ns: u64) -> String {
 }
 
 /// What identifies a run: key, metadata record, its key.
-const IDENTITY: [(&str, &str, &str); 7] = [
+const IDENTITY: [(&str, &str, &str); 8] = [
     ("scenario", "mmsim", "scenario"),
     ("controller", "mmsim", "controller"),
     ("seed", "mmsim", "seed"),
+    ("edits", "mmsim", "edits"),
     ("version", "mmsim", "version"),
     ("outcome", "mmsim.result", "outcome"),
     ("digest", "mmsim.result", "digest"),
@@ -189,7 +187,12 @@ fn as_text(path: &Path, info: &LogInfo) -> String {
     let mut out =
         format!("{}: {}, {} bytes, {} chunks\n", path.display(), state(scan), scan.bytes, scan.chunks);
     for (name, record, key) in IDENTITY {
-        let value = info.entry(record, key).unwrap_or("not said");
+        let value = match info.entry(record, key) {
+            None => "not said".to_owned(),
+            Some("") => "none".to_owned(),
+            // One a line.
+            Some(text) => text.replace('\n', "\n             "),
+        };
         let _ = writeln!(out, "{name:12} {value}");
     }
     if info.metadata.contains_key(RECOVERED) {
@@ -230,7 +233,10 @@ fn as_json(path: &Path, info: &LogInfo) -> Value {
         // A seed may be larger than what some readers of JSON take for a whole number; it is one in the summary, too.
         let number =
             value.filter(|_| matches!(name, "seed" | "samples")).and_then(|text| text.parse::<u64>().ok());
-        out[name] = number.map_or_else(|| json!(value), |number| json!(number));
+        out[name] = match (name, value) {
+            ("edits", Some(text)) => text.lines().collect(),
+            _ => number.map_or_else(|| json!(value), |number| json!(number)),
+        };
     }
     let topics = info.topics.iter();
     let topics = topics

@@ -10,9 +10,10 @@ use super::interrupt;
 use super::sparkline::Trace;
 use super::table::short;
 use crate::experiment::Experiment;
+use crate::live::Live;
 use crate::log::{LogError, Outcome, RunLog};
 use crate::scenario::Loaded;
-use crate::simulation::{Recorder, Sample};
+use crate::simulation::{Recorder, Retuned, Sample};
 
 /// Steps of the progress bar.
 const PROGRESS_STEPS: u64 = 1000;
@@ -24,6 +25,7 @@ pub(super) struct RunRecorder {
     duration: f64,
     begin: Instant,
     error: Trace,
+    live: Option<Live>,
 }
 
 impl RunRecorder {
@@ -41,7 +43,19 @@ impl RunRecorder {
             duration: experiment.clock().duration(),
             begin: Instant::now(),
             error: Trace::new(experiment.clock().duration()),
+            live: None,
         })
+    }
+
+    /// Shows the run to viewers too.
+    pub(super) fn serve(&mut self, live: Live) {
+        self.live = Some(live);
+        self.begin = Instant::now();
+    }
+
+    /// What viewers changed, and when.
+    pub(super) fn changes(&self) -> &[String] {
+        self.live.as_ref().map_or(&[], Live::changes)
     }
 
     /// Ends the progress bar.
@@ -70,6 +84,12 @@ impl Recorder for RunRecorder {
         if let Some(log) = &mut self.log {
             log.record(sample)?;
         }
+        if let Some(live) = &mut self.live {
+            live.show(sample, interrupt::asked);
+            if interrupt::asked() {
+                return Ok(false);
+            }
+        }
         self.error.take(sample.t, (sample.tip - sample.reference.position).norm());
         if !self.progress.is_hidden() {
             #[expect(
@@ -87,6 +107,10 @@ impl Recorder for RunRecorder {
 
     fn goes_on(&mut self) -> bool {
         !interrupt::asked()
+    }
+
+    fn retuned(&mut self) -> Option<Box<Retuned>> {
+        self.live.as_mut().and_then(Live::retuned)
     }
 }
 

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::recorder::RunRecorder;
-use super::{Common, Exit, RunArgs, complain, print, table};
+use super::{Common, Exit, RunArgs, complain, interrupt, print, table};
 use crate::experiment::Experiment;
+use crate::live::{self, Live, LiveError};
 use crate::log::{LogError, Outcome, RunLog};
 use crate::scenario::{self, Loaded};
 use crate::simulation::RunResult;
@@ -29,7 +30,18 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
         Err(exit) => return Ok(exit),
     };
     let path = (!common.no_log).then(|| log_path(&common.out, prepared.0.name()));
-    let (ran, mut exit) = match execute(&prepared, path, !(common.quiet || common.json)) {
+    let live = match args.live.then(|| serve(&prepared, args)).transpose() {
+        Ok(live) => live,
+        Err(exit) => return Ok(exit),
+    };
+    let show_progress = !(common.quiet || common.json);
+    let run = |recorder: &mut RunRecorder| {
+        if let Some(live) = live {
+            recorder.serve(live);
+        }
+        prepared.1.run(recorder)
+    };
+    let (ran, mut exit) = match execute_with(&prepared, path, show_progress, run) {
         Ok(ran) => {
             let exit = ran.exit;
             (ran, exit)
@@ -38,7 +50,7 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
     };
     let summary = &ran.summary;
     let (loaded, _) = &prepared;
-    if exit == Exit::Done && !loaded.is_modified() {
+    if exit == Exit::Done && !loaded.is_modified() && !ran.retuned {
         let missed = summary::missed(&loaded.file.expect, &summary.metrics);
         for miss in &missed {
             complain(&format_args!("error: {}: [expect] missed: {miss}", loaded.source_name()));
@@ -48,6 +60,19 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
         }
     }
     Ok(exit.max(report(common, &ran, exit)))
+}
+
+/// Serves a run, and waits for the first viewer.
+fn serve((loaded, experiment): &(Loaded, Experiment), args: &RunArgs) -> Result<Live, Exit> {
+    let options = live::Options { address: args.live_address, speed: args.live_speed };
+    let live = Live::start((loaded, experiment), options).map_err(|error| {
+        complain(&format_args!("error: {}", with_causes(&error)));
+        if matches!(error, LiveError::Server { .. }) { Exit::Failed } else { Exit::Usage }
+    })?;
+    interrupt::install();
+    complain(&format_args!("waiting for a viewer at {} (Ctrl-C ends)", live.url()));
+    live.wait_for_viewer(interrupt::asked);
+    Ok(live)
 }
 
 /// Prints the summary in the form asked for.
@@ -103,6 +128,8 @@ pub(super) struct Ran {
     pub(super) exit: Exit,
     /// Its error over time, as a line of text.
     pub(super) error: Option<String>,
+    /// Whether somebody changed its gains on the way.
+    pub(super) retuned: bool,
 }
 
 /// Runs a built scenario; the log, if there is one, is finished however the run ends.
@@ -142,7 +169,10 @@ pub(super) fn execute_with(
     recorder.clear();
     let result = ran.map_err(|error| fail(&error))?;
 
-    let summary = Summary::of((loaded, experiment), &result, wall_s, log.as_deref());
+    let mut summary = Summary::of((loaded, experiment), &result, wall_s, log.as_deref());
+    let changes = recorder.changes().iter().map(|change| format!("changed by a viewer: {change}"));
+    summary.warnings.splice(0..0, changes);
+    let retuned = !recorder.changes().is_empty();
     let ended = summary::describe(&result.ending);
     let outcome = Outcome::from(&result.ending);
     let error = recorder.error();
@@ -154,5 +184,5 @@ pub(super) fn execute_with(
             complain(&format_args!("the log up to there is {path}"));
         }
     }
-    Ok(Ran { summary, exit, error })
+    Ok(Ran { summary, exit, error, retuned })
 }

@@ -9,8 +9,10 @@ use mcap::records::Metadata;
 pub struct LogHeader<'a> {
     /// Name of the scenario.
     pub scenario_name: &'a str,
-    /// The scenario as run, TOML.
+    /// The scenario's file, TOML.
     pub scenario_text: &'a str,
+    /// The edits that were laid over it, each `key=value`.
+    pub edits: &'a [String],
     /// Texts of the files that the scenario names, such as a robot or waypoints: file as found, text.
     pub files: &'a [(&'a str, &'a str)],
     /// What else took part and its version: name, version. This crate's own is always there.
@@ -82,6 +84,7 @@ impl LogHeader<'_> {
             ("scenario", self.scenario_name.to_owned()),
             ("controller", self.controller.to_owned()),
             ("seed", self.seed.to_string()),
+            ("edits", self.edits.join("\n")),
         ];
         let mut record = named("mmsim", fixed);
         for (name, version) in self.versions {

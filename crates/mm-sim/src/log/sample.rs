@@ -72,7 +72,7 @@ pub struct LogSample {
 
 impl LogSample {
     /// The sample's time in whole nanoseconds; 0 for a negative or undefined time.
-    pub(super) fn stamp_ns(&self) -> u64 {
+    pub(crate) fn stamp_ns(&self) -> u64 {
         stamp_ns(self.t_s)
     }
 }

@@ -8,17 +8,17 @@ use std::fmt::Write;
 
 /// Name and full definition of a message type.
 #[derive(Debug)]
-pub(super) struct Schema {
+pub(crate) struct Schema {
     /// `package/msg/Type`.
-    pub(super) name: &'static str,
+    pub(crate) name: &'static str,
     /// The definition with everything it uses.
-    pub(super) text: String,
+    pub(crate) text: String,
 }
 
 /// How the definitions are written.
-pub(super) const SCHEMA_ENCODING: &str = "ros2msg";
+pub(crate) const SCHEMA_ENCODING: &str = "ros2msg";
 /// How the messages are written.
-pub(super) const MESSAGE_ENCODING: &str = "cdr";
+pub(crate) const MESSAGE_ENCODING: &str = "cdr";
 /// The profile of the file.
 pub(super) const PROFILE: &str = "ros2";
 

@@ -96,6 +96,7 @@ mod tests {
         let header = LogHeader {
             scenario_name: "still",
             scenario_text: "",
+            edits: &[],
             files: &[],
             versions: &[],
             seed: 0,

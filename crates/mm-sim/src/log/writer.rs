@@ -1,15 +1,11 @@
 //! The writer: one call a sample, a file that survives the process.
 
-use super::arrows::Arrows;
-use super::cdr::Cdr;
+use super::encoder::{Encoder, Message};
 use super::error::LogError;
-use super::frames::{JOINTS, Joint, joints, transforms};
 use super::header::{LogHeader, Outcome};
-use super::sample::{LogSample, stamp_ns};
-use super::topics::TOPICS;
-use super::trail::Trail;
-use super::urdf::urdf;
-use super::{messages, schema};
+use super::sample::LogSample;
+use super::schema;
+use super::topics::PerTopic;
 use mcap::records::MessageHeader;
 use mcap::write::NoSeek;
 use mcap::{Attachment, McapError, WriteOptions};
@@ -27,24 +23,6 @@ const COMPRESSION_LEVEL: i32 = -1;
 /// Wall time after which what was written goes to the operating system. With the time until somebody looks again it stays below
 /// the 100 ms that a killed run loses at most.
 const FLUSH_PERIOD: Duration = Duration::from_millis(50);
-/// Simulated time between two messages on `/path`.
-const PATH_PERIOD_NS: u64 = 500_000_000;
-/// Most points of `/reference`.
-const MAX_REFERENCE_POINTS: usize = 2_000;
-
-/// Channel numbers of the file.
-#[derive(Debug, Clone, Copy)]
-struct Channels {
-    robot_description: u16,
-    reference: u16,
-    tf: u16,
-    joint_states: u16,
-    odom: u16,
-    control: u16,
-    path: u16,
-    disturbance: u16,
-}
-
 /// Writes the log of one run.
 ///
 /// After an error the file holds what had been written before it; every later call gives an error again. A writer
@@ -54,24 +32,20 @@ struct Channels {
 pub struct LogWriter<W: Write = BufWriter<File>> {
     mcap: mcap::Writer<NoSeek<W>>,
     path: PathBuf,
-    channels: Channels,
-    joints: [Joint; JOINTS],
-    wheel_radius_m: f64,
-    half_track_m: f64,
-    cdr: Cdr,
-    trail: Trail,
-    arrows: Arrows,
-    next_path_ns: u64,
+    channels: PerTopic<u16>,
+    encoder: Encoder,
     last_flush: Instant,
     is_flushed: bool,
     last_stamp_ns: u64,
-    samples: u32,
 }
 
 impl<W: Write> std::fmt::Debug for LogWriter<W> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { path, samples, .. } = self;
-        f.debug_struct("LogWriter").field("path", path).field("samples", samples).finish_non_exhaustive()
+        let Self { path, encoder, .. } = self;
+        f.debug_struct("LogWriter")
+            .field("path", path)
+            .field("samples", &encoder.samples())
+            .finish_non_exhaustive()
     }
 }
 
@@ -126,17 +100,10 @@ impl<W: Write> LogWriter<W> {
             mcap,
             path,
             channels,
-            joints: joints(&header.robot),
-            wheel_radius_m: header.robot.wheel_radius_m,
-            half_track_m: header.robot.track_width_m / 2.0,
-            cdr: Cdr::default(),
-            trail: Trail::new(),
-            arrows: Arrows::default(),
-            next_path_ns: 0,
+            encoder: Encoder::new(header),
             last_flush: Instant::now(),
             is_flushed: true,
             last_stamp_ns: 0,
-            samples: 0,
         };
         let preamble = writer.write_preamble(header);
         writer.named(preamble)?;
@@ -187,37 +154,15 @@ impl<W: Write> LogWriter<W> {
     }
 
     fn write_preamble(&mut self, header: &LogHeader<'_>) -> Result<(), McapError> {
-        messages::string(&mut self.cdr, &urdf(&header.robot));
-        self.publish(self.channels.robot_description, 0, 0)?;
-        let stride = header.reference.len().div_ceil(MAX_REFERENCE_POINTS).max(1);
-        let points = header.reference.iter().step_by(stride);
-        messages::path(&mut self.cdr, 0, points.map(|&[t, x, y, z]| (stamp_ns(t), [x, y, z])));
-        self.publish(self.channels.reference, 0, 0)?;
+        let Self { encoder, mcap, channels, .. } = self;
+        encoder.preamble(header, |message| publish(mcap, channels, message))?;
         self.mcap.flush()
     }
 
     fn write_sample(&mut self, sample: &LogSample) -> Result<(), McapError> {
-        let (stamp, sequence) = (sample.stamp_ns(), self.samples);
-        let channels = self.channels;
-        messages::tf(&mut self.cdr, stamp, &transforms(&self.joints, sample));
-        self.publish(channels.tf, sequence, stamp)?;
-        let turn = self.half_track_m * sample.yaw_rate;
-        let wheel_rates = [sample.forward + turn, sample.forward - turn].map(|v| v / self.wheel_radius_m);
-        messages::joint_states(&mut self.cdr, stamp, sample, wheel_rates);
-        self.publish(channels.joint_states, sequence, stamp)?;
-        messages::odometry(&mut self.cdr, stamp, sample);
-        self.publish(channels.odom, sequence, stamp)?;
-        messages::control(&mut self.cdr, stamp, sample);
-        self.publish(channels.control, sequence, stamp)?;
-        if stamp >= self.next_path_ns {
-            self.publish_path(stamp, sample.tip)?;
-        }
-        self.trail.offer(stamp, sample.tip);
-        self.samples = self.samples.wrapping_add(1);
-        self.last_stamp_ns = stamp;
-        if self.arrows.write(&mut self.cdr, stamp, &self.joints, &sample.disturbance) {
-            self.publish(channels.disturbance, sequence, stamp)?;
-        }
+        let Self { encoder, mcap, channels, .. } = self;
+        encoder.sample(sample, |message| publish(mcap, channels, message))?;
+        self.last_stamp_ns = sample.stamp_ns();
         self.is_flushed = false;
         self.flush_in_time()
     }
@@ -231,27 +176,11 @@ impl<W: Write> LogWriter<W> {
         Ok(())
     }
 
-    /// The trail and, as its newest point, the tip as it is now.
-    fn publish_path(&mut self, stamp: u64, tip: [f64; 3]) -> Result<(), McapError> {
-        let kept = self.trail.points();
-        let points = (0..kept.len() + 1).map(|index| kept.get(index).copied().unwrap_or((stamp, tip)));
-        messages::path(&mut self.cdr, stamp, points);
-        let number = stamp / PATH_PERIOD_NS;
-        self.next_path_ns = number.saturating_add(1).saturating_mul(PATH_PERIOD_NS);
-        self.publish(self.channels.path, u32::try_from(number).unwrap_or(u32::MAX), stamp)
-    }
-
     fn write_result(&mut self, outcome: Outcome, summary_json: &str, digest: &str) -> Result<(), McapError> {
         let end_ns = self.last_stamp_ns;
         attach(&mut self.mcap, end_ns, "summary.json", "application/json", summary_json)?;
-        self.mcap.write_metadata(&outcome.metadata(digest, self.samples, end_ns))?;
+        self.mcap.write_metadata(&outcome.metadata(digest, self.encoder.samples(), end_ns))?;
         self.mcap.finish().map(drop)
-    }
-
-    /// Logs the message in the buffer.
-    fn publish(&mut self, channel_id: u16, sequence: u32, stamp_ns: u64) -> Result<(), McapError> {
-        let header = MessageHeader { channel_id, sequence, log_time: stamp_ns, publish_time: stamp_ns };
-        self.mcap.write_to_known_channel(&header, self.cdr.bytes())
     }
 
     fn named<T>(&self, result: Result<T, McapError>) -> Result<T, LogError> {
@@ -298,13 +227,19 @@ fn attach<W: Write>(
     })
 }
 
-fn add_channels<W: Write>(mcap: &mut mcap::Writer<NoSeek<W>>) -> Result<Channels, McapError> {
-    let mut ids = [0; TOPICS.len()];
-    for (id, (topic, schema)) in ids.iter_mut().zip(&TOPICS) {
-        let schema = schema();
+fn add_channels<W: Write>(mcap: &mut mcap::Writer<NoSeek<W>>) -> Result<PerTopic<u16>, McapError> {
+    PerTopic::try_make(|topic, schema| {
         let schema = mcap.add_schema(schema.name, schema::SCHEMA_ENCODING, schema.text.as_bytes())?;
-        *id = mcap.add_channel(schema, topic, schema::MESSAGE_ENCODING, &BTreeMap::new())?;
-    }
-    let [robot_description, reference, tf, joint_states, odom, control, path, disturbance] = ids;
-    Ok(Channels { robot_description, reference, tf, joint_states, odom, control, path, disturbance })
+        mcap.add_channel(schema, topic, schema::MESSAGE_ENCODING, &BTreeMap::new())
+    })
+}
+
+fn publish<W: Write>(
+    mcap: &mut mcap::Writer<NoSeek<W>>,
+    channels: &PerTopic<u16>,
+    Message { topic, sequence, stamp_ns, bytes }: Message<'_>,
+) -> Result<(), McapError> {
+    let channel_id = *channels.of(topic);
+    let header = MessageHeader { channel_id, sequence, log_time: stamp_ns, publish_time: stamp_ns };
+    mcap.write_to_known_channel(&header, bytes)
 }

@@ -136,13 +136,14 @@ fn origin(logs: &[LogFile], names: &[String]) -> Markup {
     html! {
         div.wide tabindex="0" role="region" aria-label="Versions and digests" { table {
             caption { "The digest is XXH3-128 over state and torques at every control period: two runs with the same one were the same run." }
-            thead { tr { @for title in ["run", "scenario", "controller", "seed", "ended", "mmsim", "samples", "digest", "log"] { th scope="col" { (title) } } } }
+            thead { tr { @for title in ["run", "scenario", "controller", "seed", "edits", "ended", "mmsim", "samples", "digest", "log"] { th scope="col" { (title) } } } }
             tbody { @for (log, name) in logs.iter().zip(names) {
                 tr {
                     th scope="row" { (name) }
                     td { (says(log, "scenario")) }
                     td { (says(log, "controller")) }
                     td { (says(log, "seed")) }
+                    td { (says(log, "edits").replace('\n', ", ")) }
                     td { (log.outcome()) }
                     td { (says(log, "version")) }
                     td { (log.columns.len()) }

@@ -1,5 +1,7 @@
 //! What stands before the controller in a loop: faults that corrupt its inputs, and the supervisor that finds them.
 
+use std::borrow::Cow;
+
 use mm_control::supervisor::{Findings, Mode};
 use mm_control::{
     Command, ControlError, ControlStack, ControlState, Input, Measurement, Output, Reference, Signals,
@@ -52,8 +54,8 @@ pub struct Found {
 /// A guard at work.
 #[derive(Debug, Clone)]
 pub(super) struct Running<'a> {
-    stack: &'a ControlStack<f64, 3>,
-    supervisor: Option<(&'a SupervisedStack<f64, 3>, SupervisedState<f64, 3>)>,
+    stack: Cow<'a, ControlStack<f64, 3>>,
+    supervisor: Option<(Cow<'a, SupervisedStack<f64, 3>>, SupervisedState<f64, 3>)>,
     faults: Faults<'a>,
     /// What the last update gave, with the torque that acts now.
     last: Output<f64, 3>,
@@ -67,8 +69,11 @@ pub(super) struct Running<'a> {
 impl<'a> Running<'a> {
     pub(super) fn new(guard: &'a Guard, stack: &'a ControlStack<f64, 3>) -> Self {
         Self {
-            stack,
-            supervisor: guard.supervisor.as_ref().map(|supervised| (supervised, supervised.initial_state())),
+            stack: Cow::Borrowed(stack),
+            supervisor: guard
+                .supervisor
+                .as_ref()
+                .map(|supervised| (Cow::Borrowed(supervised), supervised.initial_state())),
             faults: Faults::new(&guard.faults),
             last: nothing(),
             stalled: 0.0,
@@ -82,6 +87,18 @@ impl<'a> Running<'a> {
             },
             found: [None; Findings::ALL.len()],
             mode: Mode::Run,
+        }
+    }
+
+    /// Goes on with another controller, which remembers what this one does.
+    pub(super) fn retune(
+        &mut self,
+        stack: ControlStack<f64, 3>,
+        supervised: Option<SupervisedStack<f64, 3>>,
+    ) {
+        self.stack = Cow::Owned(stack);
+        if let (Some((current, _)), Some(supervised)) = (&mut self.supervisor, supervised) {
+            *current = Cow::Owned(supervised);
         }
     }
 
@@ -122,7 +139,7 @@ impl<'a> Running<'a> {
     ) -> Result<(), Ending> {
         let Some((supervised, state)) = &mut self.supervisor else {
             let Some(numbers) = numbers else { return Ok(()) };
-            self.last = unguarded(self.stack, control, numbers, wheels)
+            self.last = unguarded(&self.stack, control, numbers, wheels)
                 .map_err(|error| Ending::Refused { t, error })?;
             return Ok(());
         };
@@ -179,7 +196,7 @@ impl<'a> Running<'a> {
 
     /// What the supervisor did; none without one.
     pub(super) fn report(self) -> Option<SupervisorReport> {
-        self.supervisor?;
+        self.supervisor.as_ref()?;
         let found = self.found.into_iter().zip(Findings::ALL);
         let findings = found
             .filter_map(|(found, (_, finding))| {

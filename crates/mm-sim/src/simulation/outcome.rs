@@ -1,7 +1,7 @@
 //! What a run shows while it goes on, and what it gives at its end.
 
 use mm_control::supervisor::Findings;
-use mm_control::{ControlError, Output, Reference};
+use mm_control::{ControlError, ControlStack, Output, Reference, SupervisedStack};
 use mm_model::{Force, Torque};
 use nalgebra::Vector3;
 
@@ -53,6 +53,20 @@ pub trait Recorder {
     fn goes_on(&mut self) -> bool {
         true
     }
+
+    /// Another controller for the rest of the run, asked for after every sample: how somebody who watches turns the gains.
+    fn retuned(&mut self) -> Option<Box<Retuned>> {
+        None
+    }
+}
+
+/// A controller that takes over from another of its kind, with what that one remembers.
+#[derive(Debug, Clone)]
+pub struct Retuned {
+    /// The stack: the law, the robot and the period of the one before, other gains.
+    pub stack: ControlStack<f64, 3>,
+    /// The same under a supervisor, for a loop that has one.
+    pub supervised: Option<SupervisedStack<f64, 3>>,
 }
 
 /// Ticks after which a recorder is asked whether to go on: some milliseconds of wall time.

@@ -66,6 +66,11 @@ fn info_tells_what_is_in_a_log() {
     assert_eq!((&info["scenario"], &info["controller"]), (&"square".into(), &"bfsmc".into()), "what ran");
     assert_eq!((&info["seed"], &info["samples"]), (&0.into(), &2000.into()), "numbers are numbers");
     assert_eq!(info["digest"], log.result["digest"], "digest");
+    let edits = ["simulation.duration_s=2", "simulation.log_rate_hz=1000"];
+    assert_eq!(info["edits"], serde_json::json!(edits), "what was laid over the scenario");
+    for edit in edits {
+        assert!(text.stdout.contains(edit), "{edit} is in\n{}", text.stdout);
+    }
     assert_eq!(info["version"], mm_sim::VERSION, "version");
     assert_eq!((&info["start_ns"], &info["end_ns"]), (&0.into(), &1_999_000_000_u64.into()), "time");
     for topic in info["topics"].as_array().expect("a list") {

@@ -43,6 +43,7 @@ fn header(reference: &[[f64; 4]]) -> LogHeader<'_> {
     LogHeader {
         scenario_name: "synthetic",
         scenario_text: SCENARIO,
+        edits: &[],
         files: &[("my/path.CSV", "x_m,y_m,z_m\n"), ("robot.toml", "base_mass_kg = 40\n")],
         versions: &[("mm-control", "9.8.7")],
         seed: 42,

@@ -24,6 +24,7 @@ mod log_recover;
 mod log_roundtrip;
 mod pil;
 mod reproduce;
+mod retuning;
 mod robot_round_trip;
 mod robot_urdf;
 mod scenario_bundled;

@@ -1,0 +1,175 @@
+"""What a viewer gets of `mmsim --live`: the run, byte for byte that of the log, and its gains to turn."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from mcap.reader import make_reader
+from websockets.exceptions import ConnectionClosed
+
+from viewer import Viewer
+
+MMSIM = os.environ["MMSIM"]
+GAIN = "controller.outer.position_gain_1_s"
+ONCE = {"/robot_description", "/reference"}
+
+
+class Served:
+    """A run that is served, on a port of its own."""
+
+    def __init__(self, *arguments: str, out: str | None = None) -> None:
+        """Starts the run and waits until it waits."""
+        log = ["--out", out] if out else ["--no-log"]
+        command = [MMSIM, "--scenario", "square", "--live", "--live-address", "127.0.0.1:0", "--json", *log]
+        self.process = subprocess.Popen(
+            [*command, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+        line = self.process.stderr.readline()
+        assert "waiting for a viewer at ws://127.0.0.1:" in line, line
+        self.url = line.split(" at ")[1].split()[0]
+
+    def viewer(self) -> Viewer:
+        """A viewer that was told of all topics."""
+        viewer = Viewer.open(self.url)
+        viewer.until(lambda viewer: len(viewer.channels) == 8)
+        return viewer
+
+    def end(self) -> dict:
+        """The summary, once the run has ended."""
+        out, messages = self.process.communicate(timeout=60)
+        assert self.process.returncode in (0, 1), messages
+        return json.loads(out)
+
+
+Serve = Callable[..., Served]
+
+
+@pytest.fixture
+def served() -> Iterator[Serve]:
+    """Starts runs, and kills what is left of them."""
+    runs: list[Served] = []
+
+    def serve(*arguments: str, out: str | None = None) -> Served:
+        runs.append(Served(*arguments, out=out))
+        return runs[-1]
+
+    yield serve
+    for run in runs:
+        run.process.kill()
+
+
+def watch_to_the_end(viewer: Viewer) -> None:
+    """Takes everything until the server goes."""
+    try:
+        while True:
+            viewer.take(20.0)
+    except ConnectionClosed:
+        return
+
+
+def test_a_viewer_sees_what_the_log_holds(served: Serve, tmp_path: Path) -> None:
+    """Every message is that of the log, byte for byte, and what is sent once comes to who came later."""
+    run = served("--set", "simulation.duration_s=2.0", "--live-speed", "4", out=str(tmp_path))
+    viewer = run.viewer()
+    assert viewer.info["name"].startswith("mmsim ")
+    viewer.subscribe()
+    watch_to_the_end(viewer)
+    summary = run.end()
+    assert summary["ended"] == "finished"
+    with open(summary["log"], "rb") as log:
+        logged = [(c.topic, m.log_time, m.data) for _, c, m in make_reader(log).iter_messages(log_time_order=False)]
+    moving = [message for message in viewer.messages if message[0] not in ONCE]
+    assert moving == [message for message in logged if message[0] not in ONCE]
+    once = {topic: data for topic, _, data in logged if topic in ONCE}
+    assert {topic: data for topic, _, data in viewer.messages if topic in ONCE} == once
+    assert viewer.times == sorted(viewer.times)
+    assert len(viewer.times) > 100
+
+
+def test_watching_changes_nothing(served: Serve) -> None:
+    """The digest is that of a run nobody watches."""
+    run = served("--set", "simulation.duration_s=1.0", "--live-speed", "inf")
+    run.viewer().subscribe()
+    alone = [MMSIM, "--scenario", "square", "--set", "simulation.duration_s=1.0", "--no-log", "--json"]
+    expected = json.loads(subprocess.run(alone, capture_output=True, text=True, check=True).stdout)
+    assert run.end()["digest"] == expected["digest"]
+
+
+def test_time_passes_as_asked(served: Serve) -> None:
+    """At twice the speed of time, three seconds take one and a half."""
+    run = served("--set", "simulation.duration_s=3.0", "--live-speed", "2")
+    viewer = run.viewer()
+    viewer.subscribe()
+    viewer.until(lambda viewer: viewer.times)
+    begin = time.monotonic()
+    watch_to_the_end(viewer)
+    # A machine may be late, but no run is early.
+    assert time.monotonic() - begin > 1.3
+    assert run.end()["ended"] == "finished"
+
+
+def test_gains_are_turned_and_said(served: Serve) -> None:
+    """A viewer reads the gains, changes one, and the summary says what it was changed to, and when."""
+    run = served("--set", "simulation.duration_s=4.0")
+    viewer = run.viewer()
+    viewer.send(op="getParameters", parameterNames=[], id="all")
+    viewer.until(lambda viewer: GAIN in viewer.parameters)
+    assert len(viewer.parameters) == 24
+    assert viewer.parameters[GAIN] == [18.0, 18.0, 18.0]
+    viewer.subscribe()
+    viewer.until(lambda viewer: len(viewer.times) > 20)
+    change = {"name": GAIN, "value": [6, 6, 6.5]}
+    viewer.send(op="setParameters", parameters=[change], id="turn")
+    viewer.until(lambda viewer: viewer.parameters[GAIN] != [18.0, 18.0, 18.0])
+    assert viewer.parameters[GAIN] == [6.0, 6.0, 6.5]
+    watch_to_the_end(viewer)
+    warning = run.end()["warnings"][0]
+    assert warning.startswith(f"changed by a viewer: {GAIN} = [6.0, 6.0, 6.5] from t = ")
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "why"),
+    [
+        (GAIN, -3.0, "position_gain"),
+        (GAIN, [1.0, 2.0], "position_gain_1_s"),
+        ("controller.gains.nonsense", 1.0, "nonsense"),
+        ("simulation.seed", 5, "cannot be changed while a run goes on"),
+        ("controller.outer.sliding_gain_1_s", 5000.0, "documented range"),
+    ],
+)
+def test_a_gain_that_cannot_be_is_refused_in_words(served: Serve, name: str, value: object, why: str) -> None:
+    """What the controller cannot work with, or is no gain, is refused with the message of `--set`."""
+    run = served("--set", "simulation.duration_s=3.0")
+    viewer = run.viewer()
+    viewer.subscribe()
+    viewer.send(op="setParameters", parameters=[{"name": name, "value": value}], id="wrong")
+    viewer.until(lambda viewer: viewer.statuses)
+    assert why in viewer.statuses[0]["message"]
+    run.process.send_signal(signal.SIGINT)
+    assert run.end()["warnings"][0].startswith("changed by a viewer") is False
+
+
+def test_ctrl_c_ends_a_run_that_waits(served: Serve) -> None:
+    """A run that nobody came to watch can be ended."""
+    run = served("--set", "simulation.duration_s=3.0")
+    run.process.send_signal(signal.SIGINT)
+    summary = run.end()
+    assert summary["ended"] == "interrupted"
+    assert summary["simulated_s"] == 0.0
+
+
+def test_an_address_that_is_taken_is_said(served: Serve) -> None:
+    """An address that cannot be had is an error that names it."""
+    run = served()
+    address = run.url.removeprefix("ws://")
+    second = [MMSIM, "--scenario", "square", "--live", "--live-address", address, "--no-log"]
+    ended = subprocess.run(second, capture_output=True, text=True, timeout=20)
+    assert ended.returncode == 1
+    assert f"cannot serve at {address}: " in ended.stderr
