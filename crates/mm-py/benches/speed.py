@@ -1,12 +1,14 @@
 """What the way through Python costs: `python speed.py MMSIM DYNAMICS`, the commands `mmsim` and `dynamics` (of mm-benches) built for release.
 
 Prints the time of one ``Controller.update``, of a batched forward dynamics beside a loop in Rust, and of ``simulate`` beside the
-command without a log, each the least of many alternated runs: ratios and not times are what can be compared between machines.
+command without a log, and of a sweep over a pool of two processes beside one by itself, each the least of alternated runs: ratios and not
+times are what can be compared between machines.
 """
 
 import subprocess
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
@@ -46,12 +48,19 @@ def main() -> None:
         there.append(1e-9 * min(map(int, out.split())))
     report(f"forward_dynamics of {k} states, the loop in Rust", here, there)
     scenario = mmsim.Scenario("square", {"simulation.log_rate_hz": 100.0})
+    words = [command, "--scenario", "square", "--no-log", "--quiet", "--json"]
     here, there = [], []
     for _ in range(20):
         here.append(least(lambda: mmsim.simulate(scenario, progress=False), 1))
-        words = [command, "--scenario", "square", "--no-log", "--quiet", "--json"]
         there.append(least(lambda: subprocess.run(words, check=True, capture_output=True), 1))
     report("simulate, the command", here, there)
+    here, there = [], []
+    with ProcessPoolExecutor(2) as pool:
+        list(pool.map(abs, range(8)))  # the processes are there
+        for _ in range(3):
+            here.append(least(lambda: mmsim.sweep("square-compare", 80, executor=pool), 1))
+            there.append(least(lambda: mmsim.sweep("square-compare", 80, jobs=2), 1))
+    report("sweep of 80 over two processes, over two threads", here, there)
 
 
 def report(names: str, here: list[float], there: list[float]) -> None:
