@@ -24,22 +24,28 @@ struct Tests {
     failed: u64,
 }
 
+/// The profile that everything here is compiled in.
+const PROFILE: &str = "--profile=testrelease";
+
 /// A step: what it is called and what it does.
 type Step = (&'static str, fn(&mut Tests) -> Result<End>);
 
 const STEPS: [Step; 14] = [
     ("format", |_| format()),
+    // In the profile of the tests, so that what runs while compiling is built once.
     ("clippy", |_| {
-        cargo_step(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])
+        let lints = ["--", "-D", "warnings"];
+        run_command(cargo(&["clippy", "--workspace", "--all-targets", "--locked", PROFILE]).args(lints))?;
+        Ok(End::Done)
     }),
     ("documentation", |_| {
-        let mut cargo = cargo(&["doc", "--workspace", "--no-deps", "--locked"]);
+        let mut cargo = cargo(&["doc", "--workspace", "--no-deps", "--locked", PROFILE]);
         run_command(cargo.env("RUSTDOCFLAGS", "-D warnings"))?;
         Ok(End::Done)
     }),
     // Release code, since that is what people run, with overflow checked. That plain release code computes the same bits is seen on
     // microcontrollers, where nothing else is run.
-    ("tests", |tests| test(tests, &["--workspace", "--profile=testrelease"])),
+    ("tests", |tests| test(tests, &["--workspace", PROFILE])),
     ("fuzzy engines from PyPI", |tests| {
         fuzzy_peers::check(|line| tests.add_python(line))?;
         Ok(End::Done)
@@ -134,11 +140,6 @@ fn format() -> Result<End> {
     Ok(End::Done)
 }
 
-fn cargo_step(arguments: &[&str]) -> Result<End> {
-    run_command(&mut cargo(arguments))?;
-    Ok(End::Done)
-}
-
 /// Tests of what the arguments select, in one invocation.
 fn test(tests: &mut Tests, selection: &[&str]) -> Result<End> {
     let mut cargo = cargo(&["test", "--locked", "--no-fail-fast"]);
@@ -152,7 +153,9 @@ fn deny() -> Result<End> {
     }
     // The tool looks at the dependencies of all platforms and does not fetch them itself.
     run_command(&mut cargo(&["fetch", "--locked"]))?;
-    cargo_step(&["deny", "--offline", "check", "--hide-inclusion-graph", "bans", "licenses", "sources"])
+    let check = ["deny", "--offline", "check", "--hide-inclusion-graph", "bans", "licenses", "sources"];
+    run_command(&mut cargo(&check))?;
+    Ok(End::Done)
 }
 
 impl Tests {
