@@ -43,6 +43,7 @@ fn main() -> Result<()> {
     let header = LogHeader {
         scenario_name: "cost",
         scenario_text: "name = \"cost\"\n",
+        edits: &[],
         files: &[],
         versions: &[],
         seed: 0,

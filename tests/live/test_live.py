@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+import socket
 import subprocess
 import time
 from collections.abc import Callable, Iterator
@@ -18,6 +19,7 @@ from viewer import Viewer
 
 MMSIM = os.environ["MMSIM"]
 GAIN = "controller.outer.position_gain_1_s"
+BFSMC = {"fuzzy_gain", "fuzzy_scale", "learning_limit"}
 ONCE = {"/robot_description", "/reference"}
 
 
@@ -90,7 +92,7 @@ def test_a_viewer_sees_what_the_log_holds(served: Serve, tmp_path: Path) -> None
     once = {topic: data for topic, _, data in logged if topic in ONCE}
     assert {topic: data for topic, _, data in viewer.messages if topic in ONCE} == once
     assert viewer.times == sorted(viewer.times)
-    assert len(viewer.times) > 100
+    assert len(viewer.times) > 10
 
 
 def test_watching_changes_nothing(served: Serve) -> None:
@@ -121,7 +123,9 @@ def test_gains_are_turned_and_said(served: Serve) -> None:
     viewer = run.viewer()
     viewer.send(op="getParameters", parameterNames=[], id="all")
     viewer.until(lambda viewer: GAIN in viewer.parameters)
-    assert len(viewer.parameters) == 24
+    gains = {name.removeprefix("controller.gains.") for name in viewer.parameters if ".gains." in name}
+    # Those of the law bfsmc: no other acts.
+    assert gains == BFSMC
     assert viewer.parameters[GAIN] == [18.0, 18.0, 18.0]
     viewer.subscribe()
     viewer.until(lambda viewer: len(viewer.times) > 20)
@@ -139,8 +143,11 @@ def test_gains_are_turned_and_said(served: Serve) -> None:
     [
         (GAIN, -3.0, "position_gain"),
         (GAIN, [1.0, 2.0], "position_gain_1_s"),
-        ("controller.gains.nonsense", 1.0, "nonsense"),
-        ("simulation.seed", 5, "cannot be changed while a run goes on"),
+        ("controller.gains.nonsense", 1.0, "nonsense is no gain"),
+        ("simulation.seed", 5, "is no gain that acts here"),
+        ("controller.gains.twisting_gain", [1.0] * 5, "is no gain that acts here"),
+        ("controller.outer.minimum_norm", True, "is no gain that acts here"),
+        ("controller.gains.learning_limit.0", 1.0, "is no gain that acts here"),
         ("controller.outer.sliding_gain_1_s", 5000.0, "documented range"),
     ],
 )
@@ -154,6 +161,39 @@ def test_a_gain_that_cannot_be_is_refused_in_words(served: Serve, name: str, val
     assert why in viewer.statuses[0]["message"]
     run.process.send_signal(signal.SIGINT)
     assert run.end()["warnings"][0].startswith("changed by a viewer") is False
+
+
+def test_a_change_that_is_none_is_not_said(served: Serve) -> None:
+    """A gain set to what it is leaves the run that of its scenario."""
+    run = served("--set", "simulation.duration_s=1.0")
+    viewer = run.viewer()
+    viewer.subscribe()
+    viewer.send(op="setParameters", parameters=[{"name": GAIN, "value": [18, 18, 18]}], id="same")
+    viewer.until(lambda viewer: GAIN in viewer.parameters)
+    watch_to_the_end(viewer)
+    assert not any("changed by a viewer" in warning for warning in run.end()["warnings"])
+
+
+def test_a_gain_of_a_file_can_be_turned(served: Serve, tmp_path: Path) -> None:
+    """What a file of gains gives is not what a viewer is held to."""
+    (tmp_path / "gains.toml").write_text("[bfsmc]\nlearning_limit = [40.0, 10.0, 9.0, 9.0, 9.0]\n")
+    run = served("--set", "simulation.duration_s=2.0", "--set", f"controller.gains_file={tmp_path / 'gains.toml'}")
+    viewer = run.viewer()
+    viewer.subscribe()
+    name, value = "controller.gains.learning_limit", [50.0, 20.0, 8.0, 8.0, 8.0]
+    viewer.send(op="setParameters", parameters=[{"name": name, "value": value}], id="turn")
+    viewer.until(lambda viewer: viewer.parameters.get(name) == value)
+    watch_to_the_end(viewer)
+    assert run.end()["warnings"][0].startswith(f"changed by a viewer: {name} = ")
+
+
+def test_somebody_who_only_connects_does_not_hold_the_end(served: Serve) -> None:
+    """A connection without a word is cut when the run ends."""
+    run = served("--set", "simulation.duration_s=0.5", "--live-speed", "inf")
+    host, port = run.url.removeprefix("ws://").split(":")
+    with socket.create_connection((host, int(port))):
+        run.viewer().subscribe()
+        assert run.end()["ended"] == "finished"
 
 
 def test_ctrl_c_ends_a_run_that_waits(served: Serve) -> None:

@@ -225,6 +225,17 @@ where
         &self.gains
     }
 
+    /// Whether another stack computes the same from the same state, whatever gains it was given that its law does not use.
+    #[must_use]
+    pub fn acts_as(&self, other: &Self) -> bool
+    where
+        L: PartialEq,
+    {
+        let Self { robot, outer, law, observer, gains: _, period, estimator } = self;
+        (robot, outer, law, observer) == (&other.robot, &other.outer, &other.law, &other.observer)
+            && (period, estimator) == (&other.period, &other.estimator)
+    }
+
     /// One update: torques to hold for one period.
     ///
     /// Cost for N = 3 and `bfsmc`: four sine/cosine pairs, about 600 multiplications and additions, ten divisions, five table lookups;

@@ -17,6 +17,8 @@ mod machine;
 mod outcome;
 mod params;
 mod plausibility;
+#[cfg(test)]
+mod twin;
 
 pub use outcome::{Command, Findings, Mode, Timing};
 pub use params::SupervisorParams;

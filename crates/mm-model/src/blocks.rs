@@ -163,13 +163,6 @@ macro_rules! block_vector {
                 Self { $first, $second, joints }
             }
 
-            /// Whether `holds` is true of every channel; the joints last.
-            #[must_use]
-            #[inline]
-            pub fn all(&self, mut holds: impl FnMut(T) -> bool) -> bool {
-                holds(self.$first) && holds(self.$second) && self.joints.iter().all(|joint| holds(*joint))
-            }
-
             /// Whether no channel is infinite or NaN.
             #[must_use]
             #[inline]

@@ -145,7 +145,8 @@ struct RunArgs {
     /// In builds with the feature `live`.
     #[arg(long)]
     live: bool,
-    /// Where viewers connect; other addresses than loopback open the gains to whoever reaches them.
+    /// Where viewers connect. Nobody is asked for a password: whoever reaches the address can turn the gains, on loopback every program and
+    /// web page of this machine.
     #[arg(long, value_name = "IP:PORT", default_value = "127.0.0.1:8765", requires = "live")]
     live_address: SocketAddr,
     /// Simulated seconds per second; `inf` for as fast as it goes.
@@ -153,10 +154,10 @@ struct RunArgs {
     live_speed: f64,
 }
 
-/// A positive number, or infinity.
+/// A number that is not too small, or infinity.
 fn speed(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().map_err(|error| error.to_string())?;
-    if number > 0.0 { Ok(number) } else { Err("must be above zero".to_owned()) }
+    if number >= 1e-3 { Ok(number) } else { Err("must be 0.001 or more".to_owned()) }
 }
 
 #[derive(Debug, Clone, Args)]

@@ -126,6 +126,11 @@ impl Monitors {
         }
     }
 
+    /// Judges by another law's authority from now on.
+    pub const fn retune(&mut self, authority: Option<Force<f64, 3>>) {
+        self.authority = authority;
+    }
+
     /// Takes a sample: the Lyapunov function and the gain that the reaching condition asks for, which means nothing to a law
     /// without a switching gain.
     pub fn sample(&mut self, lyapunov: &Lyapunov, required: &Force<f64, 3>) {

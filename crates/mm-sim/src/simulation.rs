@@ -237,6 +237,9 @@ impl<'a> Run<'a> {
         if let Some(guard) = &mut self.guard {
             guard.retune(stack, supervised);
         }
+        let authority = stack.law().authority();
+        self.reaches = authority.is_some();
+        self.monitors.retune(authority);
         self.stack = Cow::Owned(stack);
     }
 

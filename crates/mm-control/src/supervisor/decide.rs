@@ -69,7 +69,12 @@ where
     /// The same number by number.
     #[cold]
     #[inline(never)]
-    fn examine(&self, state: &mut SupervisedState<T, N>, timing: Timing<T>, input: &Input<T, N>) -> Verdict {
+    pub(super) fn examine(
+        &self,
+        state: &mut SupervisedState<T, N>,
+        timing: Timing<T>,
+        input: &Input<T, N>,
+    ) -> Verdict {
         let Input { q, nu, reference } = input;
         self.note_load(state);
         let clocked = self.plausibility.clocked(timing, state.waited);

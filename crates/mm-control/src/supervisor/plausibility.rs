@@ -68,6 +68,7 @@ impl<T: Real, const N: usize> Doubt<T, N> {
         Self { of: Velocity::zero(), largest: T::ZERO }
     }
 
+    /// Doubts that are finite or infinite: nobody doubts before he knows that state and time are numbers.
     #[inline]
     pub(super) fn new(of: Velocity<T, N>) -> Self {
         let mut largest = of.forward.abs().max(of.yaw_rate.abs());

@@ -37,6 +37,7 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
     let show_progress = !(common.quiet || common.json);
     let run = |recorder: &mut RunRecorder| {
         if let Some(live) = live {
+            live.wait_for_viewer(interrupt::asked);
             recorder.serve(live);
         }
         prepared.1.run(recorder)
@@ -62,7 +63,7 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, clap::Error> {
     Ok(exit.max(report(common, &ran, exit)))
 }
 
-/// Serves a run, and waits for the first viewer.
+/// Serves a run, which waits for its first viewer.
 fn serve((loaded, experiment): &(Loaded, Experiment), args: &RunArgs) -> Result<Live, Exit> {
     let options = live::Options { address: args.live_address, speed: args.live_speed };
     let live = Live::start((loaded, experiment), options).map_err(|error| {
@@ -71,7 +72,6 @@ fn serve((loaded, experiment): &(Loaded, Experiment), args: &RunArgs) -> Result<
     })?;
     interrupt::install();
     complain(&format_args!("waiting for a viewer at {} (Ctrl-C ends)", live.url()));
-    live.wait_for_viewer(interrupt::asked);
     Ok(live)
 }
 

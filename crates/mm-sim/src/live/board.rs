@@ -9,6 +9,8 @@ use foxglove::websocket::{
     SetParametersResponder, Status,
 };
 
+use mm_control::ControlStack;
+
 use super::tunables;
 use crate::experiment;
 use crate::scenario::Loaded;
@@ -25,8 +27,10 @@ struct Desk {
     scenario: Loaded,
     /// Whether the loop has a supervisor.
     supervised: bool,
-    /// What was changed so far, by key, as TOML.
+    /// What was changed so far, by name, as TOML.
     changed: BTreeMap<String, String>,
+    /// The controller as it is now, and its gains.
+    stack: ControlStack<f64, 3>,
     values: Vec<Parameter>,
     out: Out,
 }
@@ -42,13 +46,15 @@ pub(super) struct Out {
 }
 
 impl Board {
-    pub(super) fn new(scenario: Loaded, supervised: bool, values: Vec<Parameter>) -> Self {
+    pub(super) fn new(scenario: Loaded, supervised: bool, stack: ControlStack<f64, 3>) -> Self {
+        let values = tunables::of(&scenario, &stack);
         Self {
             newcomer: AtomicBool::new(false),
             desk: Mutex::new(Desk {
                 scenario,
                 supervised,
                 changed: BTreeMap::new(),
+                stack,
                 values,
                 out: Out::default(),
             }),
@@ -101,14 +107,12 @@ impl ParameterHandler for Board {
         responder: SetParametersResponder,
     ) {
         let mut desk = self.desk();
-        let names: Vec<String> = parameters.iter().map(|parameter| parameter.name.clone()).collect();
         if let Err(error) = desk.change(parameters) {
             desk.out.statuses.push(Status::error(error));
         }
-        // Those that were refused show again what they were.
-        let now: Vec<_> = desk.values.iter().filter(|value| names.contains(&value.name)).cloned().collect();
-        desk.out.parameters.extend(now.iter().cloned());
-        responder.respond(now);
+        // All of them: what was refused shows again what it was, and some gains follow others.
+        desk.out.parameters = desk.values.clone();
+        responder.respond(desk.values.clone());
     }
 }
 
@@ -119,19 +123,26 @@ impl Desk {
         let mut changes = Vec::new();
         for Parameter { name, value, .. } in parameters {
             let Some(value) = value else { continue };
-            if !tunables::is_gain(&name) {
-                return Err(format!("{name} cannot be changed while a run goes on, gains can"));
+            if !self.values.iter().any(|served| served.name == name) {
+                return Err(format!(
+                    "{name} is no gain that acts here and can be changed while a run goes on"
+                ));
             }
             let value = tunables::to_toml(&value);
             changes.push(format!("{name} = {value}"));
             changed.insert(name, value);
         }
-        let edits: Vec<String> = changed.iter().map(|(key, value)| format!("{key}={value}")).collect();
+        let edits = changed.iter().map(|(name, value)| tunables::edit(&self.scenario, name, value));
+        let edits: Vec<String> = edits.collect();
         let loaded = self.scenario.edited(&edits).map_err(|error| error.to_string())?;
         let stack = experiment::stack(&loaded).map_err(|error| error.to_string())?;
         let supervised = if self.supervised { experiment::supervised(&loaded).map(Some) } else { Ok(None) };
         let supervised = supervised.map_err(|error| error.to_string())?;
-        self.values = tunables::of(&stack);
+        if stack.acts_as(&self.stack) {
+            return Ok(());
+        }
+        self.values = tunables::refreshed(&self.values, &stack);
+        self.stack = stack;
         self.changed = changed;
         self.out.changes.extend(changes);
         self.out.retuned = Some(Box::new(Retuned { stack, supervised }));

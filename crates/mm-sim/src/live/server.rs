@@ -1,6 +1,6 @@
 //! The server: topics out, parameters in, one sample at a time.
 
-use std::sync::Arc;
+use std::sync::{Arc, mpsc};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -11,7 +11,7 @@ use foxglove::{
 };
 
 use super::board::{Board, Out};
-use super::{LiveError, Options, tunables};
+use super::{LiveError, Options};
 use crate::VERSION;
 use crate::experiment::Experiment;
 use crate::log::{
@@ -24,6 +24,14 @@ use crate::simulation::{Retuned, Sample};
 const NAP: Duration = Duration::from_millis(50);
 /// Time that a viewer is given after its first subscription, in which it makes the others.
 const SETTLING: Duration = Duration::from_millis(300);
+
+/// Time in which what was sent last is to reach the viewers, and for which they are waited for at the end.
+const GRACE: Duration = Duration::from_millis(200);
+const FAREWELL: Duration = Duration::from_secs(1);
+/// Messages that a viewer may be behind, of eight a sample.
+const BACKLOG: usize = 16 * 1024;
+/// Wall time between two messages of the clock.
+const CLOCK_PERIOD: Duration = Duration::from_millis(20);
 
 /// A served run.
 pub struct Live {
@@ -41,6 +49,7 @@ pub struct Live {
     changes: Vec<String>,
     speed: f64,
     begin: Option<Instant>,
+    last_clock: Option<Instant>,
 }
 
 impl std::fmt::Debug for Live {
@@ -61,7 +70,7 @@ impl Live {
         let Experiment::Closed(simulation) = experiment else { return Err(LiveError::Imposed) };
         let failed = |source: FoxgloveError| LiveError::Server { address, source: Box::new(source) };
         let supervised = simulation.guard.as_ref().is_some_and(|guard| guard.supervisor.is_some());
-        let board = Arc::new(Board::new(loaded.clone(), supervised, tunables::of(&simulation.stack)));
+        let board = Arc::new(Board::new(loaded.clone(), supervised, simulation.stack));
         // A context of its own: a process may serve several runs, one after the other.
         let context = Context::new();
         let channels = PerTopic::try_make(|topic, schema| {
@@ -76,6 +85,7 @@ impl Live {
             .capabilities([Capability::Time, Capability::Parameters])
             .listener(Arc::clone(&board) as _)
             .parameter_handler(Arc::clone(&board) as _)
+            .message_backlog_size(BACKLOG)
             .context(&context)
             .start_blocking()
             .map_err(failed)?;
@@ -102,6 +112,7 @@ impl Live {
             changes: Vec::new(),
             speed,
             begin: None,
+            last_clock: None,
         })
     }
 
@@ -141,7 +152,10 @@ impl Live {
         self.changes.extend(changes.iter().map(|change| format!("{change} from t = {:.3} s on", sample.t)));
         self.retuned = retuned.or(self.retuned.take());
         if let Some(server) = &self.server {
-            server.broadcast_time(stamp);
+            if self.last_clock.is_none_or(|last| last.elapsed() >= CLOCK_PERIOD) {
+                server.broadcast_time(stamp);
+                self.last_clock = Some(Instant::now());
+            }
             if !parameters.is_empty() {
                 server.publish_parameter_values(parameters);
             }
@@ -178,8 +192,15 @@ impl Live {
 impl Drop for Live {
     fn drop(&mut self) {
         if let Some(server) = self.server.take() {
-            // What was sent last reaches the viewers before the connection ends.
-            server.stop().wait_blocking();
+            // A stop forgets what waits to be sent, and waits for those who neither read nor leave.
+            thread::sleep(GRACE);
+            let stopping = server.stop();
+            let (gone, all_gone) = mpsc::channel::<()>();
+            thread::spawn(move || {
+                stopping.wait_blocking();
+                drop(gone);
+            });
+            let _ = all_gone.recv_timeout(FAREWELL);
         }
     }
 }

@@ -1,16 +1,52 @@
-//! The parameters that a viewer may change while a run goes on: the gains of the law and those of the outer loop.
+//! The parameters that a viewer may change while a run goes on: those gains of the law and of the outer loop that act.
 //!
 //! They have the names of the scenario's keys, and a change goes the way of `--set`: the same checks, the same messages.
 
 use foxglove::websocket::{Parameter, ParameterValue};
 use mm_control::{ControlStack, Gains, OuterParams};
 
+use crate::experiment::{self, controller_name};
+use crate::scenario::Loaded;
+
 /// Where the gains of the law stand in a scenario, and those of the outer loop.
 const LAW: &str = "controller.gains";
 const OUTER: &str = "controller.outer";
 
-/// All of them, as a stack has them.
-pub(super) fn of(stack: &ControlStack<f64, 3>) -> Vec<Parameter> {
+/// The gains that act in the law of a scenario, as its stack has them: a change of any other would change nothing.
+///
+/// Not among them: the bandwidth of the observer, whose state is scaled by it; what is a choice and no gain.
+pub(super) fn of(scenario: &Loaded, stack: &ControlStack<f64, 3>) -> Vec<Parameter> {
+    let mut all = all(stack);
+    all.retain(|parameter| {
+        let Some(other) = parameter.value.as_ref().map(nudged) else { return false };
+        let tried = scenario
+            .edited(&[edit(scenario, &parameter.name, &to_toml(&other))])
+            .and_then(|loaded| experiment::stack(&loaded));
+        // A gain at the end of its range is one all the same.
+        tried.map_or(true, |tried| !tried.acts_as(stack))
+    });
+    all
+}
+
+/// The same ones with the values of another stack.
+pub(super) fn refreshed(served: &[Parameter], stack: &ControlStack<f64, 3>) -> Vec<Parameter> {
+    let mut all = all(stack);
+    all.retain(|parameter| served.iter().any(|other| other.name == parameter.name));
+    all
+}
+
+/// The edit of a scenario that gives a gain a value, whatever file or argument gave it one before.
+pub(super) fn edit(scenario: &Loaded, name: &str, value: &str) -> String {
+    match name.strip_prefix(LAW) {
+        Some(gain) => {
+            let law = controller_name(scenario.file.controller.kind);
+            format!("controller.gains_for.{law}{gain}={value}")
+        }
+        None => format!("{name}={value}"),
+    }
+}
+
+fn all(stack: &ControlStack<f64, 3>) -> Vec<Parameter> {
     let g: &Gains<f64, 3> = stack.gains();
     let o: &OuterParams<f64, 3> = stack.outer().params();
     let law = |name: &str, values: Vec<f64>| parameter(LAW, name, values);
@@ -20,11 +56,13 @@ pub(super) fn of(stack: &ControlStack<f64, 3>) -> Vec<Parameter> {
         law("boundary_layer", g.boundary_layer.channels().collect()),
         law("fuzzy_gain", g.fuzzy.channels().collect()),
         law("fuzzy_scale", g.fuzzy_scale.channels().collect()),
-        law("observer_bandwidth_1_s", vec![g.observer_bandwidth]),
         law("learning_limit", g.learning_limit.channels().collect()),
         law("damping_gain_1_s", g.damping.channels().collect()),
         law("stiffness_gain_1_s2", g.stiffness.channels().collect()),
         law("integral_gain_1_s3", g.integral.channels().collect()),
+        law("acceptable_position", g.acceptable_position.channels().collect()),
+        law("acceptable_velocity", g.acceptable_velocity.channels().collect()),
+        law("acceptable_force", g.acceptable_force.channels().collect()),
         law("body_adaptation_gain_1_j", vec![g.body_adaptation]),
         law("force_adaptation_gain_1_s2", vec![g.force_adaptation]),
         law("twisting_gain", g.twisting.channels().collect()),
@@ -51,9 +89,13 @@ fn parameter(table: &str, name: &str, values: Vec<f64>) -> Parameter {
     }
 }
 
-/// Whether a key is that of a gain.
-pub(super) fn is_gain(key: &str) -> bool {
-    [LAW, OUTER].iter().any(|table| key.strip_prefix(table).is_some_and(|rest| rest.starts_with('.')))
+/// A value a little smaller, and not zero.
+fn nudged(value: &ParameterValue) -> ParameterValue {
+    match value {
+        ParameterValue::Float64(number) => ParameterValue::Float64(0.99 * number + 1e-6),
+        ParameterValue::Array(values) => ParameterValue::Array(values.iter().map(nudged).collect()),
+        other => other.clone(),
+    }
 }
 
 /// A value as TOML.
@@ -67,11 +109,6 @@ pub(super) fn to_toml(value: &ParameterValue) -> String {
             let values: Vec<String> = values.iter().map(to_toml).collect();
             format!("[{}]", values.join(", "))
         }
-        ParameterValue::Dict(entries) => {
-            let entries = entries
-                .iter()
-                .map(|(key, value)| format!("{} = {}", toml::Value::from(key.as_str()), to_toml(value)));
-            format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
-        }
+        ParameterValue::Dict(_) => "{}".to_owned(), // no gain is one
     }
 }
