@@ -64,7 +64,8 @@ pub struct StackParams<T, const N: usize> {
 /// f = M nu_r' + C nu_r + g + friction + law(s) - d_hat,   tau = B^-1 f, then the limits
 /// ```
 /// C is the matrix with dM/dt - 2C skew, and it multiplies nu_r, as the proof (4.40) needs it; (4.29) prints nu. All parameters are in
-/// `self`, all memory in [`ControlState`]: retuning is another stack with the same state.
+/// `self`, all memory in [`ControlState`]: retuning is another stack with the same state. Not so the observer's bandwidth: what was learned is stored
+/// scaled by it, so another one is for a state that has learned nothing yet.
 ///
 /// # Examples
 /// ```
