@@ -6,6 +6,7 @@
 //! The controller in the loop is [`mm_control::ControlStack`], the very code that firmware links; the plant is the same model with its own
 //! parameters, integrated by Runge-Kutta.
 
+mod channels;
 pub mod cli;
 pub mod digest;
 pub mod disturbance;

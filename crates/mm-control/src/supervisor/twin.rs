@@ -8,7 +8,9 @@ use mm_model::{Configuration, Robot, RobotParams, Torque, Velocity};
 use nalgebra::Vector3;
 
 use super::{SupervisedStack, SupervisorParams, Timing, Verdict};
-use crate::{ControlStack, Estimator, Gains, Input, LawKind, OuterParams, Reference, StackParams};
+use crate::{
+    ControlStack, Estimator, Gains, Input, LawKind, OuterParams, Reference, SetupError, StackParams,
+};
 
 const PERIOD: f64 = 1e-3;
 
@@ -27,18 +29,18 @@ impl Draw {
     }
 }
 
-fn supervised() -> SupervisedStack<f64, 3> {
-    let robot = Robot::try_new(RobotParams::thesis()).unwrap();
+fn supervised() -> Result<SupervisedStack<f64, 3>, SetupError> {
+    let robot = Robot::try_new(RobotParams::thesis())?;
     let gains = Gains::for_robot(&robot, LawKind::Bfsmc, PERIOD);
     let outer = OuterParams::for_robot(&robot);
     let params = StackParams { period: PERIOD, outer, gains, estimator: Estimator::None };
-    let stack = ControlStack::try_new(robot, LawKind::Bfsmc, params).unwrap();
-    SupervisedStack::try_new(stack, SupervisorParams::for_robot(&robot, PERIOD)).unwrap()
+    let stack = ControlStack::try_new(robot, LawKind::Bfsmc, params)?;
+    SupervisedStack::try_new(stack, SupervisorParams::for_robot(&robot, PERIOD))
 }
 
 #[test]
-fn the_quick_path_leaves_what_the_slow_one_leaves() {
-    let stack = supervised();
+fn the_quick_path_leaves_what_the_slow_one_leaves() -> Result<(), SetupError> {
+    let stack = supervised()?;
     let mut draw = Draw(1);
     let (mut quick, mut doubtful, mut frozen) = (0, 0, 0);
     for _ in 0..200 {
@@ -87,4 +89,5 @@ fn the_quick_path_leaves_what_the_slow_one_leaves() {
         quick > 3000 && doubtful > 300 && frozen > 10,
         "{quick} quick, {doubtful} doubtful, {frozen} frozen"
     );
+    Ok(())
 }

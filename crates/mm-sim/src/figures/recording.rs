@@ -2,9 +2,10 @@
 
 use std::io::{self, Write};
 
-use mm_model::{Real, Robot, Torque, Velocity};
+use mm_model::{Real, Robot};
 use nalgebra::Vector3;
 
+use crate::channels::{torques, velocities};
 use crate::experiment::Experiment;
 use crate::log::LogFile;
 use crate::simulation::{Recorder, Sample};
@@ -285,14 +286,4 @@ fn slopes(time: &[f64], values: &[f64]) -> Vec<f64> {
         if span > 0.0 { (at(values, after) - at(values, before)) / span } else { 0.0 }
     };
     (0..values.len()).map(slope).collect()
-}
-
-fn torques(t: &Torque<f64, 3>) -> [f64; 5] {
-    let [j1, j2, j3] = t.joints;
-    [t.right, t.left, j1, j2, j3]
-}
-
-fn velocities(v: &Velocity<f64, 3>) -> [f64; 5] {
-    let [j1, j2, j3] = v.joints;
-    [v.forward, v.yaw_rate, j1, j2, j3]
 }

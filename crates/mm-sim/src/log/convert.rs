@@ -1,9 +1,10 @@
 //! From what the simulation and a scenario say to what a log holds.
 
-use mm_model::{Force, Real, Robot, Torque, Velocity};
+use mm_model::{Real, Robot};
 
 use super::{LogHeader, LogSample, RobotShape};
 use crate::VERSION;
+use crate::channels::{forces, torques, velocities};
 use crate::experiment::{Experiment, controller_name};
 use crate::monitors::cut_torques;
 use crate::scenario::Loaded;
@@ -112,19 +113,4 @@ impl Converter {
         }
         out
     }
-}
-
-fn torques(t: &Torque<f64, 3>) -> [f64; 5] {
-    let [j1, j2, j3] = t.joints;
-    [t.right, t.left, j1, j2, j3]
-}
-
-fn velocities(v: &Velocity<f64, 3>) -> [f64; 5] {
-    let [j1, j2, j3] = v.joints;
-    [v.forward, v.yaw_rate, j1, j2, j3]
-}
-
-fn forces(f: &Force<f64, 3>) -> [f64; 5] {
-    let [j1, j2, j3] = f.joints;
-    [f.forward, f.yaw, j1, j2, j3]
 }
