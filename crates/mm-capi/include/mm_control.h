@@ -1782,7 +1782,8 @@ mm_status mm_controller_init(mm_controller *controller,
 /**
  * Gives a controller other parameters and keeps its memory: integrals, what was learned, estimates, mode.
  *
- * Whether it is supervised cannot change. On any status but MM_STATUS_OK it is as it was.
+ * What was learned stands for one update under another observer_bandwidth_1_s or robot, and is forgotten by a law that does not learn. Whether it is
+ * supervised cannot change. On any status but MM_STATUS_OK it is as it was.
  *
  * @param[in,out] controller  an initialized controller
  * @param[in]     params      parameters; copied

@@ -54,8 +54,14 @@ impl<T: Scalar> Controller<T> {
     /// The same memory under other parameters.
     pub(crate) fn retuned(&self, params: &Params<T>) -> Result<Self, Refusal> {
         Ok(match (Self::try_new(&stack(params)?, params)?, self) {
-            (Self::Plain { stack, .. }, &Self::Plain { state, .. }) => Self::Plain { stack, state },
-            (Self::Supervised { stack, .. }, &Self::Supervised { state, .. }) => {
+            (Self::Plain { stack, .. }, Self::Plain { stack: from, state }) => {
+                let mut state = *state;
+                stack.take_over(&mut state, from);
+                Self::Plain { stack, state }
+            }
+            (Self::Supervised { stack, .. }, Self::Supervised { stack: from, state }) => {
+                let mut state = *state;
+                stack.take_over(&mut state, from);
                 Self::Supervised { stack, state }
             }
             (Self::Plain { .. }, Self::Supervised { .. }) => return Err(Status::Supervised.into()),

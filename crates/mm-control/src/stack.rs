@@ -1,10 +1,12 @@
 //! The control stack: one call from measurement and reference to torques, the same for every user.
 
+mod checks;
 mod supervised;
+mod take_over;
 
 use mm_model::{Configuration, Mechanism, Real, Robot, SinesOf, Velocity, check};
-use nalgebra::Vector3;
 
+use self::checks::{check_rates, supervise};
 use crate::estimator::{Estimator, Measurement, Memory, Stage};
 use crate::fuzzy::Bundled;
 use crate::laws::{Drive, FuzzyTerm, Gains, InnerLaw, Law, LawMemory, Tracking};
@@ -24,7 +26,7 @@ pub struct ControlState<T, const N: usize> {
     integral: Velocity<T, N>,
     observer: ObserverState<T, N>,
     memory: LawMemory<T, N>,
-    /// Whether the last torque was limited.
+    /// Whether the observer holds for one update: the last torque was limited, or another stack took over.
     held: bool,
     /// Updates done, counted up to where the outer loop has released the base.
     updates: u32,
@@ -64,8 +66,7 @@ pub struct StackParams<T, const N: usize> {
 /// f = M nu_r' + C nu_r + g + friction + law(s) - d_hat,   tau = B^-1 f, then the limits
 /// ```
 /// C is the matrix with dM/dt - 2C skew, and it multiplies nu_r, as the proof (4.40) needs it; (4.29) prints nu. All parameters are in
-/// `self`, all memory in [`ControlState`]: retuning is another stack with the same state. Not so the observer's bandwidth: what was learned is stored
-/// scaled by it, so another one is for a state that has learned nothing yet.
+/// `self`, all memory in [`ControlState`]: retuning is another stack that [takes over](Self::take_over) the same state.
 ///
 /// # Examples
 /// ```
@@ -405,43 +406,4 @@ where
             },
         })
     }
-}
-
-/// Lets only finite inputs through.
-#[inline]
-fn supervise<T: Real, const N: usize>(input: &Input<T, N>) -> Result<(), ControlError> {
-    // A finite number times zero is zero, any other is NaN.
-    let gap = |v: &Vector3<T>| v.x * T::ZERO + v.y * T::ZERO + v.z * T::ZERO;
-    if !input.q.is_finite() {
-        return Err(ControlError::NonFinite("configuration"));
-    }
-    if !input.nu.is_finite() {
-        return Err(ControlError::NonFinite("velocity"));
-    }
-    let reference = &input.reference;
-    let gaps = gap(&reference.position) + gap(&reference.velocity) + gap(&reference.acceleration);
-    if !(gaps == T::ZERO) {
-        return Err(ControlError::NonFinite("reference"));
-    }
-    Ok(())
-}
-
-/// Checks that nothing is asked to decay within less than a period: e(k+1) = (1 - K T) e(k) overshoots beyond K T = 1 and grows beyond 2.
-fn check_rates<T: Real, const N: usize>(
-    period: T,
-    bandwidth: T,
-    outer: &OuterParams<T, N>,
-) -> Result<(), SetupError> {
-    let rates = [
-        (bandwidth, "observer_bandwidth_1_s"),
-        (outer.position_gain.iter().fold(T::ZERO, |most, gain| most.max(*gain)), "position_gain_1_s"),
-        (outer.sliding_gain.channels().fold(T::ZERO, |most, gain| most.max(gain)), "sliding_gain_1_s"),
-        (outer.posture_gain, "posture_gain_1_s"),
-    ];
-    for (rate, name) in rates {
-        if rate * period > T::ONE {
-            return Err(mm_model::ParamError::OutOfRange(name).into());
-        }
-    }
-    Ok(())
 }

@@ -205,6 +205,13 @@ where
         self.safe(state, findings)
     }
 
+    /// Makes the memory of another supervised stack this one's, before its first update with it; see [`ControlStack::take_over`].
+    ///
+    /// The mode, the last command and what was believed of the robot stay as they are.
+    pub fn take_over(&self, state: &mut SupervisedState<T, N>, from: &Self) {
+        self.stack.take_over(&mut state.control, &from.stack);
+    }
+
     /// Starts anew from any mode: the operator's decision that the robot may move again.
     pub fn reset(&self, state: &mut SupervisedState<T, N>) {
         *state = self.initial_state();

@@ -237,6 +237,7 @@ impl<'a> Run<'a> {
         if let Some(guard) = &mut self.guard {
             guard.retune(stack, supervised);
         }
+        stack.take_over(&mut self.control, &self.stack);
         let authority = stack.law().authority();
         self.reaches = authority.is_some();
         self.monitors.retune(authority);

@@ -2,7 +2,8 @@
 
 use mm_model::{Configuration, Force, Mechanism, Real, Robot, Torque, Velocity};
 
-use super::{ControlStack, ControlState, supervise};
+use super::checks::supervise;
+use super::{ControlStack, ControlState};
 use crate::estimator::{Estimate, Measurement, Memory};
 use crate::laws::InnerLaw;
 use crate::{ControlError, Input, Output, Reference};

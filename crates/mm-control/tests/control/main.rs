@@ -23,3 +23,4 @@ mod smooth_knots;
 mod stack;
 mod supervisor;
 mod supervisor_random;
+mod take_over;

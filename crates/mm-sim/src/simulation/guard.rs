@@ -97,7 +97,8 @@ impl<'a> Running<'a> {
         supervised: Option<SupervisedStack<f64, 3>>,
     ) {
         self.stack = Cow::Owned(stack);
-        if let (Some((current, _)), Some(supervised)) = (&mut self.supervisor, supervised) {
+        if let (Some((current, state)), Some(supervised)) = (&mut self.supervisor, supervised) {
+            supervised.take_over(state, current);
             *current = Cow::Owned(supervised);
         }
     }
