@@ -19,7 +19,7 @@ from viewer import Viewer
 
 MMSIM = os.environ["MMSIM"]
 GAIN = "controller.outer.position_gain_1_s"
-BFSMC = {"fuzzy_gain", "fuzzy_scale", "learning_limit"}
+BFSMC = {"fuzzy_gain", "fuzzy_scale", "learning_limit", "observer_bandwidth_1_s"}
 ONCE = {"/robot_description", "/reference"}
 
 
@@ -161,6 +161,45 @@ def test_a_gain_that_cannot_be_is_refused_in_words(served: Serve, name: str, val
     assert why in viewer.statuses[0]["message"]
     run.process.send_signal(signal.SIGINT)
     assert run.end()["warnings"][0].startswith("changed by a viewer") is False
+
+
+def test_a_refusal_is_said_before_the_run_begins(served: Serve) -> None:
+    """Whoever turns a gain before anybody watches is told in words, without the places of a text that viewers do not see."""
+    run = served("--set", "simulation.duration_s=1.0")
+    viewer = run.viewer()
+    name = "controller.gains.learning_limit"
+    viewer.send(op="setParameters", parameters=[{"name": name, "value": [-1.0] * 5}], id="wrong")
+    viewer.until(lambda viewer: viewer.statuses)
+    message = viewer.statuses[0]["message"]
+    assert message.startswith(f"`{name}"), message
+    assert "-->" not in message
+    assert "\n" not in message
+    assert not viewer.times
+    run.process.send_signal(signal.SIGINT)
+    run.end()
+
+
+def test_the_log_of_a_killed_run_says_what_was_changed(served: Serve, tmp_path: Path) -> None:
+    """Changes stand in the log when they are made: `log info` and what `log recover` brings back have them."""
+    run = served("--set", "simulation.duration_s=60.0", out=str(tmp_path))
+    viewer = run.viewer()
+    viewer.subscribe()
+    viewer.until(lambda viewer: len(viewer.times) > 20)
+    for value in (6.0, 7.0):
+        viewer.send(op="setParameters", parameters=[{"name": GAIN, "value": [value] * 3}], id="turn")
+        viewer.until(lambda viewer, value=value: viewer.parameters.get(GAIN) == [value] * 3)
+    seen = len(viewer.times)
+    viewer.until(lambda viewer: len(viewer.times) > seen + 20)
+    run.process.kill()
+    run.process.wait()
+    (log,) = tmp_path.glob("*.mcap")
+    recovered = tmp_path / "recovered.mcap"
+    subprocess.run([MMSIM, "log", "recover", str(log), "-o", str(recovered)], capture_output=True)
+    for path in (log, recovered):
+        info = subprocess.run([MMSIM, "log", "info", str(path), "--json"], capture_output=True, text=True)
+        first, second = json.loads(info.stdout)["changes"]
+        assert first.startswith(f"{GAIN} = [6.0, 6.0, 6.0] from t = "), first
+        assert second.startswith(f"{GAIN} = [7.0, 7.0, 7.0] from t = "), second
 
 
 def test_a_change_that_is_none_is_not_said(served: Serve) -> None:

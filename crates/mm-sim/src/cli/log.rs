@@ -195,6 +195,9 @@ fn as_text(path: &Path, info: &LogInfo) -> String {
         };
         let _ = writeln!(out, "{name:12} {value}");
     }
+    for change in info.changes() {
+        let _ = writeln!(out, "{:12} {change}", "changed");
+    }
     if info.metadata.contains_key(RECOVERED) {
         let _ = writeln!(out, "{:12} from a log that was torn or damaged", "recovered");
     }
@@ -238,6 +241,7 @@ fn as_json(path: &Path, info: &LogInfo) -> Value {
             _ => number.map_or_else(|| json!(value), |number| json!(number)),
         };
     }
+    out["changes"] = info.changes().collect();
     let topics = info.topics.iter();
     let topics = topics
         .map(|(name, topic)| json!({"topic": name, "type": topic.message_type, "messages": topic.messages}));

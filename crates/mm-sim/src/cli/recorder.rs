@@ -26,6 +26,8 @@ pub(super) struct RunRecorder {
     begin: Instant,
     error: Trace,
     live: Option<Live>,
+    /// Number of its changes that the log has.
+    noted: usize,
 }
 
 impl RunRecorder {
@@ -44,6 +46,7 @@ impl RunRecorder {
             begin: Instant::now(),
             error: Trace::new(experiment.clock().duration()),
             live: None,
+            noted: 0,
         })
     }
 
@@ -86,6 +89,12 @@ impl Recorder for RunRecorder {
         }
         if let Some(live) = &mut self.live {
             live.show(sample, interrupt::asked);
+            for change in live.changes().iter().skip(self.noted) {
+                if let Some(log) = &mut self.log {
+                    log.note_change(change)?;
+                }
+            }
+            self.noted = live.changes().len();
             if interrupt::asked() {
                 return Ok(false);
             }

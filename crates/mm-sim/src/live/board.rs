@@ -32,15 +32,21 @@ struct Desk {
     /// The controller as it is now, and its gains.
     stack: ControlStack<f64, 3>,
     values: Vec<Parameter>,
-    out: Out,
+    change: Change,
+    answer: Answer,
 }
 
-/// What the run takes up.
+/// What the run takes up with its next sample.
 #[derive(Default)]
-pub(super) struct Out {
+pub(super) struct Change {
     pub(super) retuned: Option<Box<Retuned>>,
-    /// The changes that it is made of, for people.
-    pub(super) changes: Vec<String>,
+    /// What it is made of, for people.
+    pub(super) words: Vec<String>,
+}
+
+/// What all viewers are to be told, whether the run goes on or not.
+#[derive(Default)]
+pub(super) struct Answer {
     pub(super) parameters: Vec<Parameter>,
     pub(super) statuses: Vec<Status>,
 }
@@ -56,7 +62,8 @@ impl Board {
                 changed: BTreeMap::new(),
                 stack,
                 values,
-                out: Out::default(),
+                change: Change::default(),
+                answer: Answer::default(),
             }),
         }
     }
@@ -71,9 +78,14 @@ impl Board {
         self.newcomer.load(Ordering::Relaxed)
     }
 
-    /// Takes what lies there.
-    pub(super) fn take(&self) -> Out {
-        std::mem::take(&mut self.desk().out)
+    /// Takes what the run is to do otherwise.
+    pub(super) fn take_change(&self) -> Change {
+        std::mem::take(&mut self.desk().change)
+    }
+
+    /// Takes what viewers are to be told.
+    pub(super) fn take_answer(&self) -> Answer {
+        std::mem::take(&mut self.desk().answer)
     }
 
     fn desk(&self) -> MutexGuard<'_, Desk> {
@@ -108,10 +120,10 @@ impl ParameterHandler for Board {
     ) {
         let mut desk = self.desk();
         if let Err(error) = desk.change(parameters) {
-            desk.out.statuses.push(Status::error(error));
+            desk.answer.statuses.push(Status::error(error));
         }
         // All of them: what was refused shows again what it was, and some gains follow others.
-        desk.out.parameters = desk.values.clone();
+        desk.answer.parameters = desk.values.clone();
         responder.respond(desk.values.clone());
     }
 }
@@ -120,7 +132,7 @@ impl Desk {
     /// Puts a controller with other gains on the desk; on an error everything stays as it was.
     fn change(&mut self, parameters: Vec<Parameter>) -> Result<(), String> {
         let mut changed = self.changed.clone();
-        let mut changes = Vec::new();
+        let mut words = Vec::new();
         for Parameter { name, value, .. } in parameters {
             let Some(value) = value else { continue };
             if !self.values.iter().any(|served| served.name == name) {
@@ -129,23 +141,24 @@ impl Desk {
                 ));
             }
             let value = tunables::to_toml(&value);
-            changes.push(format!("{name} = {value}"));
+            words.push(format!("{name} = {value}"));
             changed.insert(name, value);
         }
         let edits = changed.iter().map(|(name, value)| tunables::edit(&self.scenario, name, value));
         let edits: Vec<String> = edits.collect();
-        let loaded = self.scenario.edited(&edits).map_err(|error| error.to_string())?;
-        let stack = experiment::stack(&loaded).map_err(|error| error.to_string())?;
-        let supervised = if self.supervised { experiment::supervised(&loaded).map(Some) } else { Ok(None) };
-        let supervised = supervised.map_err(|error| error.to_string())?;
+        let built = self.scenario.edited(&edits).and_then(|loaded| {
+            let supervised = self.supervised.then(|| experiment::supervised(&loaded)).transpose()?;
+            Ok((experiment::stack(&loaded)?, supervised))
+        });
+        let (stack, supervised) = built.map_err(|error| tunables::refusal(&self.scenario, &error))?;
         if stack.acts_as(&self.stack) {
             return Ok(());
         }
         self.values = tunables::refreshed(&self.values, &stack);
         self.stack = stack;
         self.changed = changed;
-        self.out.changes.extend(changes);
-        self.out.retuned = Some(Box::new(Retuned { stack, supervised }));
+        self.change.words.extend(words);
+        self.change.retuned = Some(Box::new(Retuned { stack, supervised }));
         Ok(())
     }
 }

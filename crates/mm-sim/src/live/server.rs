@@ -10,7 +10,7 @@ use foxglove::{
     WebSocketServerHandle,
 };
 
-use super::board::{Board, Out};
+use super::board::{Answer, Board, Change};
 use super::{LiveError, Options};
 use crate::VERSION;
 use crate::experiment::Experiment;
@@ -128,6 +128,7 @@ impl Live {
             if asked_to_stop() {
                 return;
             }
+            self.answer();
             thread::sleep(NAP);
         }
         thread::sleep(SETTLING);
@@ -148,20 +149,27 @@ impl Live {
             send(channels, topic, bytes, stamp_ns);
             Ok::<(), std::convert::Infallible>(())
         });
-        let Out { retuned, changes, parameters, statuses } = self.board.take();
-        self.changes.extend(changes.iter().map(|change| format!("{change} from t = {:.3} s on", sample.t)));
+        let Change { retuned, words } = self.board.take_change();
+        self.changes.extend(words.iter().map(|change| format!("{change} from t = {:.3} s on", sample.t)));
         self.retuned = retuned.or(self.retuned.take());
-        if let Some(server) = &self.server {
-            if self.last_clock.is_none_or(|last| last.elapsed() >= CLOCK_PERIOD) {
-                server.broadcast_time(stamp);
-                self.last_clock = Some(Instant::now());
-            }
-            if !parameters.is_empty() {
-                server.publish_parameter_values(parameters);
-            }
-            for status in statuses {
-                server.publish_status(status);
-            }
+        if let Some(server) = &self.server
+            && self.last_clock.is_none_or(|last| last.elapsed() >= CLOCK_PERIOD)
+        {
+            server.broadcast_time(stamp);
+            self.last_clock = Some(Instant::now());
+        }
+        self.answer();
+    }
+
+    /// Tells viewers what became of what they wanted.
+    fn answer(&self) {
+        let Some(server) = &self.server else { return };
+        let Answer { parameters, statuses } = self.board.take_answer();
+        if !parameters.is_empty() {
+            server.publish_parameter_values(parameters);
+        }
+        for status in statuses {
+            server.publish_status(status);
         }
     }
 
@@ -184,6 +192,7 @@ impl Live {
             if asked_to_stop() {
                 return;
             }
+            self.answer();
             thread::sleep(left.min(NAP));
         }
     }

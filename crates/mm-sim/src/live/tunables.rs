@@ -6,7 +6,7 @@ use foxglove::websocket::{Parameter, ParameterValue};
 use mm_control::{ControlStack, Gains, OuterParams};
 
 use crate::experiment::{self, controller_name};
-use crate::scenario::Loaded;
+use crate::scenario::{Loaded, ScenarioError};
 
 /// Where the gains of the law stand in a scenario, and those of the outer loop.
 const LAW: &str = "controller.gains";
@@ -14,7 +14,7 @@ const OUTER: &str = "controller.outer";
 
 /// The gains that act in the law of a scenario, as its stack has them: a change of any other would change nothing.
 ///
-/// Not among them: the bandwidth of the observer, whose state is scaled by it; what is a choice and no gain.
+/// Not among them: what is a choice and no gain.
 pub(super) fn of(scenario: &Loaded, stack: &ControlStack<f64, 3>) -> Vec<Parameter> {
     let mut all = all(stack);
     all.retain(|parameter| {
@@ -46,6 +46,12 @@ pub(super) fn edit(scenario: &Loaded, name: &str, value: &str) -> String {
     }
 }
 
+/// Why an edit was refused, with the names that viewers know.
+pub(super) fn refusal(scenario: &Loaded, error: &ScenarioError) -> String {
+    let law = controller_name(scenario.file.controller.kind);
+    error.in_words().replace(&format!("controller.gains_for.{law}"), LAW)
+}
+
 fn all(stack: &ControlStack<f64, 3>) -> Vec<Parameter> {
     let g: &Gains<f64, 3> = stack.gains();
     let o: &OuterParams<f64, 3> = stack.outer().params();
@@ -57,6 +63,7 @@ fn all(stack: &ControlStack<f64, 3>) -> Vec<Parameter> {
         law("fuzzy_gain", g.fuzzy.channels().collect()),
         law("fuzzy_scale", g.fuzzy_scale.channels().collect()),
         law("learning_limit", g.learning_limit.channels().collect()),
+        law("observer_bandwidth_1_s", vec![g.observer_bandwidth]),
         law("damping_gain_1_s", g.damping.channels().collect()),
         law("stiffness_gain_1_s2", g.stiffness.channels().collect()),
         law("integral_gain_1_s3", g.integral.channels().collect()),

@@ -27,6 +27,15 @@ pub struct LogHeader<'a> {
     pub reference: &'a [[f64; 4]],
 }
 
+/// Name of the records that say what was changed while the run went on.
+pub(super) const CHANGES: &str = "mmsim.changes";
+
+/// The record of a change; their keys are in the order of time as text, too.
+pub(super) fn change(number: u32, text: &str) -> Metadata {
+    let entry = (format!("{number:010}"), text.to_owned());
+    Metadata { name: CHANGES.to_owned(), metadata: [entry].into() }
+}
+
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]

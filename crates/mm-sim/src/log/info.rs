@@ -8,6 +8,7 @@ use std::path::Path;
 use mcap::records::{Channel, Record};
 
 use super::LogError;
+use super::header::CHANGES;
 use super::scan::{Scan, ScanError, scan};
 
 /// One topic of a log.
@@ -45,7 +46,7 @@ pub struct LogInfo {
     pub span_ns: Option<(u64, u64)>,
     /// Attachments in the order of the file.
     pub attachments: Vec<AttachmentInfo>,
-    /// Metadata records by name.
+    /// Metadata records by name, the entries of those of one name together.
     pub metadata: BTreeMap<String, BTreeMap<String, String>>,
 }
 
@@ -83,6 +84,11 @@ impl LogInfo {
     #[must_use]
     pub fn messages(&self) -> u64 {
         self.topics.values().map(|topic| topic.messages).sum()
+    }
+
+    /// What was changed while the run went on, in the order of time.
+    pub fn changes(&self) -> impl Iterator<Item = &str> {
+        self.metadata.get(CHANGES).into_iter().flat_map(BTreeMap::values).map(String::as_str)
     }
 
     /// An entry of a metadata record.
@@ -130,7 +136,8 @@ impl Contents {
                 bytes: u64::try_from(data.len()).unwrap_or(u64::MAX),
             }),
             Record::Metadata(record) => {
-                self.metadata.insert(record.name, record.metadata);
+                // Changes come one record each.
+                self.metadata.entry(record.name).or_default().extend(record.metadata);
             }
             _ => {}
         }

@@ -31,6 +31,14 @@ impl RunLog {
         Ok(Self { writer: TimelyWriter::new(writer), converter: Converter::new(experiment) })
     }
 
+    /// Writes down what somebody changed while the run goes on.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn note_change(&self, change: &str) -> Result<(), LogError> {
+        self.writer.note_change(change)
+    }
+
     /// Ends the file of a run.
     ///
     /// # Errors

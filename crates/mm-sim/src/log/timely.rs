@@ -44,11 +44,12 @@ impl TimelyWriter {
 
     /// Writes one instant of the run.
     pub(super) fn write(&self, sample: &LogSample) -> Result<(), LogError> {
-        let mut shared = lock(&self.shared);
-        if let Some(error) = shared.error.take() {
-            return Err(error);
-        }
-        shared.writer.as_mut().map_or(Ok(()), |writer| writer.write(sample))
+        self.with(|writer| writer.write(sample))
+    }
+
+    /// Writes down what somebody changed.
+    pub(super) fn note_change(&self, change: &str) -> Result<(), LogError> {
+        self.with(|writer| writer.note_change(change))
     }
 
     /// Ends the log.
@@ -58,6 +59,15 @@ impl TimelyWriter {
             return Err(error);
         }
         shared.writer.take().map_or(Ok(()), |writer| writer.finish_as(outcome, summary, digest))
+    }
+
+    /// What a flush failed with before, or what the writer says now.
+    fn with(&self, write: impl FnOnce(&mut LogWriter) -> Result<(), LogError>) -> Result<(), LogError> {
+        let mut shared = lock(&self.shared);
+        if let Some(error) = shared.error.take() {
+            return Err(error);
+        }
+        shared.writer.as_mut().map_or(Ok(()), write)
     }
 }
 
@@ -83,17 +93,13 @@ fn flush(shared: &mut Shared) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{LogHeader, LogInfo, LogSample, LogWriter};
+    use super::super::{LogHeader, LogInfo, LogSample, LogWriter, recover_stream};
     use super::TimelyWriter;
     use crate::log::urdf::tests::thesis_like;
     use std::time::{Duration, Instant};
 
-    /// Law: a sample is in the file without another one coming. Why: a run may stand still. Reference: the file, read while the
-    /// writer is open; the wait is long enough for any machine.
-    #[test]
-    fn the_last_sample_reaches_the_file_while_nothing_happens() {
-        let path = std::env::temp_dir().join(format!("mmsim-timely-{}.mcap", std::process::id()));
-        let header = LogHeader {
+    fn header() -> LogHeader<'static> {
+        LogHeader {
             scenario_name: "still",
             scenario_text: "",
             edits: &[],
@@ -103,8 +109,37 @@ mod tests {
             controller: "none",
             robot: thesis_like(),
             reference: &[],
-        };
-        let log = TimelyWriter::new(LogWriter::create(&path, &header).expect("a file"));
+        }
+    }
+
+    /// Law: what was changed on the way is in a log that nobody finished, and in what is recovered of it, in the order of time. Why: a
+    /// killed run must not pass for that of its scenario. Reference: the words that were given.
+    #[test]
+    fn changes_are_in_a_log_without_an_end() {
+        let path = std::env::temp_dir().join(format!("mmsim-changed-{}.mcap", std::process::id()));
+        let log = TimelyWriter::new(LogWriter::create(&path, &header()).expect("a file"));
+        log.write(&LogSample::default()).expect("space");
+        let words: Vec<String> = (0..12).map(|k| format!("gain = {k} from t = 0.{k:03} s on")).collect();
+        for change in &words {
+            log.note_change(change).expect("space");
+        }
+        drop(log);
+        let torn = std::fs::read(&path).expect("our own file");
+        std::fs::remove_file(&path).expect("our own file");
+        let mut recovered = Vec::new();
+        recover_stream(torn.as_slice(), &mut recovered).expect("a log");
+        for bytes in [torn, recovered] {
+            let info = LogInfo::of(bytes.as_slice()).expect("a log");
+            assert_eq!(info.changes().collect::<Vec<_>>(), words, "{:?}", info.scan);
+        }
+    }
+
+    /// Law: a sample is in the file without another one coming. Why: a run may stand still. Reference: the file, read while the
+    /// writer is open; the wait is long enough for any machine.
+    #[test]
+    fn the_last_sample_reaches_the_file_while_nothing_happens() {
+        let path = std::env::temp_dir().join(format!("mmsim-timely-{}.mcap", std::process::id()));
+        let log = TimelyWriter::new(LogWriter::create(&path, &header()).expect("a file"));
         log.write(&LogSample::default()).expect("space");
         let begin = Instant::now();
         let is_there = || {

@@ -2,7 +2,7 @@
 
 use super::encoder::{Encoder, Message};
 use super::error::LogError;
-use super::header::{LogHeader, Outcome};
+use super::header::{self, LogHeader, Outcome};
 use super::sample::LogSample;
 use super::schema;
 use super::topics::PerTopic;
@@ -37,6 +37,8 @@ pub struct LogWriter<W: Write = BufWriter<File>> {
     last_flush: Instant,
     is_flushed: bool,
     last_stamp_ns: u64,
+    /// Number of changes that were written down.
+    changes: u32,
 }
 
 impl<W: Write> std::fmt::Debug for LogWriter<W> {
@@ -104,6 +106,7 @@ impl<W: Write> LogWriter<W> {
             last_flush: Instant::now(),
             is_flushed: true,
             last_stamp_ns: 0,
+            changes: 0,
         };
         let preamble = writer.write_preamble(header);
         writer.named(preamble)?;
@@ -129,6 +132,18 @@ impl<W: Write> LogWriter<W> {
     pub fn flush_if_due(&mut self) -> Result<(), LogError> {
         let flushed = self.flush_in_time();
         self.named(flushed)
+    }
+
+    /// Writes down what somebody changed while the run goes on, so that a log without its end says it too.
+    ///
+    /// # Errors
+    ///
+    /// [`LogError::Write`] if the file cannot be written to.
+    pub fn note_change(&mut self, change: &str) -> Result<(), LogError> {
+        self.changes += 1;
+        let written = self.mcap.write_metadata(&header::change(self.changes, change));
+        self.is_flushed = false;
+        self.named(written)
     }
 
     /// Ends the log of a run that reached its end: the summary as JSON and the digest of the run.

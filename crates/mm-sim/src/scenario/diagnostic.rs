@@ -133,6 +133,16 @@ impl ScenarioError {
         &self.problems
     }
 
+    /// The problems for somebody who does not see the texts: keys, what was found and what was expected, without places.
+    #[cfg(feature = "live")]
+    pub(crate) fn in_words(&self) -> String {
+        let words = |problem: &Problem| match &problem.expected {
+            Some(expected) => format!("{}, expected {expected}", problem.title()),
+            None => problem.title(),
+        };
+        self.problems.iter().map(words).collect::<Vec<_>>().join("; ")
+    }
+
     /// The name of the text, the line and the column, both from one, that a problem is at.
     #[must_use]
     pub fn location(&self, problem: &Problem) -> Option<(&str, usize, usize)> {
