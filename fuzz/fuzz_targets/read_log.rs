@@ -3,9 +3,10 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use mm_sim::log::{LogInfo, recover_stream};
+use mm_sim::log::{LogFile, LogInfo, recover_stream};
 
 fuzz_target!(|bytes: &[u8]| {
+    let _ = LogFile::of("fuzzed.mcap", bytes);
     let mut recovered = Vec::new();
     let (Ok(info), Ok(found)) = (LogInfo::of(bytes), recover_stream(bytes, &mut recovered)) else {
         return;

@@ -1,16 +1,18 @@
 //! Reading a log back: what it says about its run, and the signals of `/control` column by column.
 //!
-//! A file whose end is missing, since its run was killed, is read as far as it goes and says so in its warnings. Columns are decoded
-//! by the message definition in the file, not by that of this version.
+//! A file whose end is missing, since its run was killed, is read as far as it goes, damaged parts are left out, and its warnings say so. Columns are
+//! decoded by the message definition in the file, not by that of this version.
 
 mod bytes;
 mod columns;
 mod error;
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use mcap::read::{ChunkFlattener, Options};
+use mcap::McapError;
 use mcap::records::{Metadata, Record};
 use serde_json::Value;
 
@@ -18,6 +20,9 @@ use bytes::Bytes;
 pub use columns::Columns;
 use columns::Layout;
 pub use error::ReadError;
+
+use super::header::CHANGES;
+use super::scan::{End, Scan, ScanError, scan};
 
 /// A log as read.
 #[derive(Debug, Clone, Default)]
@@ -44,6 +49,15 @@ pub struct LogFile {
     pub warnings: Vec<String>,
 }
 
+/// What the records before said that those to come need.
+#[derive(Default)]
+struct Known {
+    schemas: BTreeMap<u16, String>,
+    channels: BTreeMap<u16, Carried>,
+    /// What was changed while the run went on.
+    changes: Vec<String>,
+}
+
 /// What a channel of the file carries, as far as it is read here.
 enum Carried {
     Robot,
@@ -58,27 +72,35 @@ impl LogFile {
     /// The file cannot be read, is no MCAP, or holds no samples of a run.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        let open = |source| ReadError::Open { path: path.to_owned(), source };
-        Self::from_bytes(path, &std::fs::read(path).map_err(open)?)
+        let file = File::open(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
+        Self::of(path, BufReader::new(file))
     }
 
-    /// Reads the bytes of a file; `path` is what errors and warnings call it.
+    /// Reads any source to its end; `path` is what errors and warnings call it.
     ///
     /// # Errors
-    /// Those of [`read`](Self::read), but for the file system's.
-    pub fn from_bytes(path: impl AsRef<Path>, bytes: &[u8]) -> Result<Self, ReadError> {
+    /// Those of [`read`](Self::read).
+    pub fn of(path: impl AsRef<Path>, mut source: impl Read) -> Result<Self, ReadError> {
         let path = path.as_ref().to_owned();
-        if !bytes.starts_with(mcap::MAGIC) {
-            return Err(ReadError::NoLog { path });
-        }
         let mut log = Self { path, ..Self::default() };
-        if let Err(cause) = log.take_records(bytes) {
-            log.warnings.push(format!("the file is torn or damaged and was read up to there: {cause}"));
+        let mut known = Known::default();
+        let scanned = scan(&mut source, &mut |record| {
+            log.take(&mut known, record);
+            Ok(())
+        });
+        match scanned {
+            Ok(scan) => log.warn(&scan),
+            Err(ScanError::Read(McapError::Io(source))) => {
+                return Err(ReadError::Open { path: log.path, source });
+            }
+            Err(ScanError::Read(_) | ScanError::Taker(_)) => return Err(ReadError::NoLog { path: log.path }),
         }
         if log.columns.is_empty() {
             return Err(ReadError::NoSamples { path: log.path });
         }
         if log.result.is_none() {
+            // A run that got there says it in its summary.
+            log.warnings.extend(known.changes.iter().map(|change| format!("changed by a viewer: {change}")));
             log.warnings.push("the run did not reach its end: there is no outcome, digest or summary".into());
         }
         Ok(log)
@@ -96,36 +118,49 @@ impl LogFile {
         self.result.as_ref().and_then(|result| result.get("outcome")).map_or("unfinished", String::as_str)
     }
 
-    fn take_records(&mut self, bytes: &[u8]) -> mcap::McapResult<()> {
-        let lenient = Options::IgnoreEndMagic | Options::ValidateChunkCrcs;
-        let mut schemas: BTreeMap<u16, String> = BTreeMap::new();
-        let mut channels: BTreeMap<u16, Carried> = BTreeMap::new();
-        for record in ChunkFlattener::new_with_options(bytes, lenient)? {
-            match record? {
-                Record::Schema { header, data } => {
-                    schemas.insert(header.id, String::from_utf8_lossy(&data).into_owned());
-                }
-                Record::Channel(channel) => {
-                    let schema = schemas.get(&channel.schema_id).map_or("", String::as_str);
-                    if let Some(carried) = Carried::by(&channel.topic, schema) {
-                        channels.entry(channel.id).or_insert(carried);
-                    }
-                }
-                Record::Message { header, data } => {
-                    if let Some(carried) = channels.get(&header.channel_id) {
-                        self.take_message(carried, &data);
-                    }
-                }
-                Record::Attachment { header, data, .. } => {
-                    self.take_attachment(header.name, &String::from_utf8_lossy(&data));
-                }
-                Record::Metadata(record) => self.take_metadata(record),
-                // What follows repeats what was read.
-                Record::DataEnd(_) => break,
-                _ => {}
+    /// Says what of the file could not be read.
+    fn warn(&mut self, scan: &Scan) {
+        match &scan.end {
+            End::Whole => {}
+            End::Torn => self.warnings.push("the file is torn and was read up to there".to_owned()),
+            End::Damaged(reason) => {
+                self.warnings.push(format!("the file is damaged and was read up to there: {reason}"));
             }
         }
-        Ok(())
+        if let Some(first) = scan.damage.first() {
+            let (count, at, reason) = (scan.damage.len(), first.offset, &first.reason);
+            let text = format!(
+                "damaged records of the file were left out: {count}, the first at byte {at}: {reason}"
+            );
+            self.warnings.push(text);
+        }
+    }
+
+    fn take(&mut self, known: &mut Known, record: Record<'_>) {
+        match record {
+            Record::Schema { header, data } => {
+                known.schemas.insert(header.id, String::from_utf8_lossy(&data).into_owned());
+            }
+            Record::Channel(channel) => {
+                let schema = known.schemas.get(&channel.schema_id).map_or("", String::as_str);
+                if let Some(carried) = Carried::by(&channel.topic, schema) {
+                    known.channels.entry(channel.id).or_insert(carried);
+                }
+            }
+            Record::Message { header, data } => {
+                if let Some(carried) = known.channels.get(&header.channel_id) {
+                    self.take_message(carried, &data);
+                }
+            }
+            Record::Attachment { header, data, .. } => {
+                self.take_attachment(header.name, &String::from_utf8_lossy(&data));
+            }
+            Record::Metadata(record) if record.name == CHANGES => {
+                known.changes.extend(record.metadata.into_values());
+            }
+            Record::Metadata(record) => self.take_metadata(record),
+            _ => {}
+        }
     }
 
     fn take_message(&mut self, carried: &Carried, data: &[u8]) {

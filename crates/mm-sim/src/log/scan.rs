@@ -1,5 +1,7 @@
 //! Reads an MCAP file record by record from its start, whole or torn, in memory that does not grow with the file.
 
+mod layout;
+
 use std::borrow::Cow;
 use std::io::{ErrorKind, Read};
 
@@ -108,7 +110,9 @@ pub(super) fn scan(
                     }
                 }
             }
-            Err(error @ (McapError::BadMagic | McapError::UnexpectedEof)) if scan.bytes <= magic => {
+            Err(error)
+                if scan.bytes < magic || scan.bytes == magic && matches!(error, McapError::BadMagic) =>
+            {
                 return Err(ScanError::Read(error));
             }
             Err(error) => {
@@ -165,26 +169,14 @@ fn record(
 /// A record that somebody wants to know of.
 fn parsed(opcode: u8, data: &[u8]) -> Result<Option<Record<'_>>, String> {
     match opcode {
-        // The crate's reader takes the last four bytes for granted.
-        op::ATTACHMENT if attachment_head(data).is_none_or(|head| data.len() < head + 4) => {
-            Err("an attachment without its end".to_owned())
+        _ if !layout::fits(opcode, data) => {
+            Err("a text, a list or an attachment that is longer than its record".to_owned())
         }
         op::HEADER | op::SCHEMA | op::CHANNEL | op::MESSAGE | op::CHUNK | op::ATTACHMENT | op::METADATA => {
             mcap::parse_record(opcode, data).map(Some).map_err(|error| error.to_string())
         }
         _ => Ok(None),
     }
-}
-
-/// Bytes of an attachment before its data: two times, two strings, a length.
-fn attachment_head(data: &[u8]) -> Option<usize> {
-    let mut at = 16_usize;
-    for _ in 0..2 {
-        let length = data.get(at..at + 4)?.try_into().map(u32::from_le_bytes).ok()?;
-        at = at.checked_add(4)?.checked_add(usize::try_from(length).ok()?)?;
-        data.get(..at)?;
-    }
-    Some(at + 8)
 }
 
 /// The records of a chunk, once its checksum is known to be right.

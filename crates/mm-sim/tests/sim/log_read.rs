@@ -53,11 +53,11 @@ fn a_torn_log_is_read_up_to_there() {
     let folder = Folder::new("log-torn");
     let (path, _) = run(&folder);
     let bytes = std::fs::read(&path).expect("a file");
-    let whole = LogFile::from_bytes(&path, &bytes).expect("a log");
+    let whole = LogFile::of(&path, bytes.as_slice()).expect("a log");
     let mut read = 0;
     for part in 0..200 {
         let length = bytes.len() * part / 200;
-        let Ok(log) = LogFile::from_bytes("torn.mcap", &bytes[..length]) else { continue };
+        let Ok(log) = LogFile::of("torn.mcap", &bytes[..length]) else { continue };
         read += 1;
         // What follows the outcome repeats what was read.
         let is_told = log.result.is_some() || log.warnings.iter().any(|warning| warning.contains("torn"));
@@ -70,17 +70,41 @@ fn a_torn_log_is_read_up_to_there() {
     assert!(read > 10, "some of the cuts leave samples: {read}");
     // Without its end magic, summary section and outcome, as a killed run leaves it.
     let at = bytes.windows(12).position(|window| window == b"mmsim.result").expect("the outcome");
-    let log = LogFile::from_bytes("killed.mcap", &bytes[..at - 13]).expect("a log");
+    let log = LogFile::of("killed.mcap", &bytes[..at - 13]).expect("a log");
     assert_eq!(log.columns.len(), whole.columns.len(), "all samples");
     assert_eq!(log.outcome(), "unfinished", "no outcome");
     assert!(log.warnings.iter().any(|w| w.contains("did not reach its end")), "{:?}", log.warnings);
 }
 
 #[test]
+fn a_damaged_part_is_left_out_and_said() {
+    let folder = Folder::new("log-damaged-read");
+    // A sample every tick, for a log of several chunks.
+    let (short, every) = ("simulation.duration_s=2", "simulation.log_rate_hz=1000");
+    folder.expect(0, &["--scenario", "square", "--quiet", "--set", short, "--set", every, "--out", "."]);
+    let path = folder.path("square.mcap");
+    let mut bytes = std::fs::read(&path).expect("a file");
+    let whole = LogFile::of(&path, bytes.as_slice()).expect("a log");
+    let chunks = mcap::read::Summary::read(&bytes).expect("a log").expect("an index").chunk_indexes;
+    assert!(chunks.len() > 3, "chunks before and after the one that is broken: {}", chunks.len());
+    let broken = &chunks[2];
+    let middle = broken.chunk_start_offset + broken.chunk_length / 2;
+    bytes[usize::try_from(middle).expect("a small file")] ^= 0x55;
+    let log = LogFile::of("damaged.mcap", bytes.as_slice()).expect("a log");
+    let (some, all) = (log.columns.get("error_x_m"), whole.columns.get("error_x_m"));
+    assert!(!some.is_empty() && some.len() < all.len(), "samples of the damaged chunk are left out");
+    let (first, last) = (some.first(), some.last());
+    assert_eq!((first, last), (all.first(), all.last()), "what precedes and what follows the damage is read");
+    let said = format!("left out: 1, the first at byte {}", broken.chunk_start_offset);
+    assert!(log.warnings.iter().any(|warning| warning.contains(&said)), "{:?}", log.warnings);
+    assert_eq!(log.outcome(), "finished", "the outcome, too");
+}
+
+#[test]
 fn what_is_no_log_is_refused_in_a_line() {
     let folder = Folder::new("log-none");
     folder.write("text.mcap", "not a log");
-    let refused = |bytes: &[u8]| LogFile::from_bytes("file", bytes).expect_err("no log").to_string();
+    let refused = |bytes: &[u8]| LogFile::of("file", bytes).expect_err("no log").to_string();
     assert_eq!(refused(b"not a log"), "file: this is no MCAP file; `mmsim run` writes one", "a text");
     let nothing = "file: there is no sample of a run on `/control`; expected a log of `mmsim`";
     assert_eq!(refused(mcap::MAGIC), nothing, "a beginning alone");
