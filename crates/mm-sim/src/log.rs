@@ -42,7 +42,7 @@ mod writer;
 
 pub use control::control_field_names;
 pub use error::LogError;
-pub use header::{LogHeader, Outcome};
+pub use header::{LogHeader, Outcome, edits};
 pub use info::{AttachmentInfo, LogInfo, TopicInfo};
 pub use read::{LogFile, ReadError};
 pub use recover::{RECOVERED, Recovered, recover, recover_stream};

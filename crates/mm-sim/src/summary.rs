@@ -6,6 +6,7 @@ use mm_control::supervisor::Findings;
 use serde::Serialize;
 
 use crate::experiment::{Experiment, controller_name};
+use crate::log::Outcome;
 use crate::metrics::Metrics;
 use crate::monitors::{Lasting, MonitorReport};
 use crate::scenario::{Bounds, Expect, Loaded};
@@ -175,14 +176,8 @@ fn during(what: &str, Lasting { fraction, first_s }: Lasting) -> Option<String> 
 
 /// How a run ended, in a word.
 #[must_use]
-pub const fn ended(ending: &Ending) -> &'static str {
-    match ending {
-        Ending::Finished => "finished",
-        Ending::Stopped { .. } => "interrupted",
-        Ending::Diverged { .. } => "diverged",
-        Ending::Refused { .. } => "refused",
-        Ending::Faulted { .. } => "fault",
-    }
+pub fn ended(ending: &Ending) -> &'static str {
+    Outcome::from(ending).as_str()
 }
 
 /// How a run ended, unless it finished.

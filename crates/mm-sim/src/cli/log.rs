@@ -190,8 +190,11 @@ fn as_text(path: &Path, info: &LogInfo) -> String {
         let value = match info.entry(record, key) {
             None => "not said".to_owned(),
             Some("") => "none".to_owned(),
-            // One a line.
-            Some(text) => text.replace('\n', "\n             "),
+            Some(text) if name == "edits" => match log::edits(text).as_slice() {
+                [] => "none".to_owned(),
+                edits => edits.join("\n").replace('\n', "\n             "),
+            },
+            Some(text) => text.to_owned(),
         };
         let _ = writeln!(out, "{name:12} {value}");
     }
@@ -237,7 +240,7 @@ fn as_json(path: &Path, info: &LogInfo) -> Value {
         let number =
             value.filter(|_| matches!(name, "seed" | "samples")).and_then(|text| text.parse::<u64>().ok());
         out[name] = match (name, value) {
-            ("edits", Some(text)) => text.lines().collect(),
+            ("edits", Some(text)) => json!(log::edits(text)),
             _ => number.map_or_else(|| json!(value), |number| json!(number)),
         };
     }

@@ -14,6 +14,12 @@ pub enum LogError {
         /// What the operating system says.
         source: std::io::Error,
     },
+    /// Another run writes the file.
+    #[error("another run writes the log {}; wait for it, or give another folder with --out", .path.display())]
+    Busy {
+        /// The file as given.
+        path: PathBuf,
+    },
     /// The file was open, but could not be written to: a full disk, for example.
     #[error("cannot write to the log {}", .path.display())]
     Write {
@@ -46,7 +52,7 @@ impl LogError {
             Self::Create { source, .. } | Self::Write { source: mcap::McapError::Io(source), .. } => {
                 source.kind() == std::io::ErrorKind::BrokenPipe
             }
-            Self::Write { .. } | Self::Read { .. } | Self::Empty { .. } => false,
+            Self::Busy { .. } | Self::Write { .. } | Self::Read { .. } | Self::Empty { .. } => false,
         }
     }
 }

@@ -27,6 +27,12 @@ pub struct LogHeader<'a> {
     pub reference: &'a [[f64; 4]],
 }
 
+/// The edits of a record `mmsim`: a JSON array of texts.
+#[must_use]
+pub fn edits(text: &str) -> Vec<String> {
+    serde_json::from_str(text).unwrap_or_default()
+}
+
 /// Name of the records that say what was changed while the run went on.
 pub(super) const CHANGES: &str = "mmsim.changes";
 
@@ -44,6 +50,8 @@ pub enum Outcome {
     Finished,
     /// It left the bounds in which its numbers mean anything.
     Diverged,
+    /// The controller refused what it was given.
+    Refused,
     /// The supervisor gave the robot up.
     Faulted,
     /// It was asked to stop.
@@ -56,7 +64,8 @@ impl From<&Ending> for Outcome {
             Ending::Finished => Self::Finished,
             Ending::Stopped { .. } => Self::Interrupted,
             Ending::Faulted { .. } => Self::Faulted,
-            Ending::Diverged { .. } | Ending::Refused { .. } => Self::Diverged,
+            Ending::Refused { .. } => Self::Refused,
+            Ending::Diverged { .. } => Self::Diverged,
         }
     }
 }
@@ -68,6 +77,7 @@ impl Outcome {
         match self {
             Self::Finished => "finished",
             Self::Diverged => "diverged",
+            Self::Refused => "refused",
             Self::Faulted => "fault",
             Self::Interrupted => "interrupted",
         }
@@ -93,7 +103,7 @@ impl LogHeader<'_> {
             ("scenario", self.scenario_name.to_owned()),
             ("controller", self.controller.to_owned()),
             ("seed", self.seed.to_string()),
-            ("edits", self.edits.join("\n")),
+            ("edits", serde_json::to_string(self.edits).unwrap_or_default()),
         ];
         let mut record = named("mmsim", fixed);
         for (name, version) in self.versions {

@@ -13,7 +13,7 @@ use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use mcap::McapError;
-use mcap::records::{Metadata, Record};
+use mcap::records::{AttachmentHeader, Metadata, Record};
 use serde_json::Value;
 
 use bytes::Bytes;
@@ -153,7 +153,7 @@ impl LogFile {
                 }
             }
             Record::Attachment { header, data, .. } => {
-                self.take_attachment(header.name, &String::from_utf8_lossy(&data));
+                self.take_attachment(header, &String::from_utf8_lossy(&data));
             }
             Record::Metadata(record) if record.name == CHANGES => {
                 known.changes.extend(record.metadata.into_values());
@@ -175,11 +175,14 @@ impl LogFile {
         }
     }
 
-    fn take_attachment(&mut self, name: String, text: &str) {
-        match name.as_str() {
-            "scenario.toml" => text.clone_into(&mut self.scenario_text),
-            "summary.json" => self.summary = serde_json::from_str(text).ok(),
-            _ => self.files.push((name, text.to_owned())),
+    /// The scenario comes first; files that it names may have any name, but no JSON is among them.
+    fn take_attachment(&mut self, header: AttachmentHeader, text: &str) {
+        match header.name.as_str() {
+            "scenario.toml" if self.scenario_text.is_empty() => text.clone_into(&mut self.scenario_text),
+            "summary.json" if header.media_type == "application/json" => {
+                self.summary = serde_json::from_str(text).ok();
+            }
+            _ => self.files.push((header.name, text.to_owned())),
         }
     }
 

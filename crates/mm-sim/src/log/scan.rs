@@ -62,7 +62,7 @@ impl Scan {
     /// Bytes after the last complete record.
     #[must_use]
     pub const fn torn_bytes(&self) -> u64 {
-        self.bytes - self.complete_bytes
+        self.bytes.saturating_sub(self.complete_bytes)
     }
 }
 
@@ -127,7 +127,10 @@ pub(super) fn scan(
     scan.bytes += rest(source).map_err(ScanError::Read)?;
     if scan.end == End::Whole {
         // The closing magic is no record.
-        scan.complete_bytes = scan.bytes;
+        scan.complete_bytes += magic;
+        if scan.torn_bytes() > 0 {
+            scan.end = End::Damaged("it goes on after its end".to_owned());
+        }
     }
     Ok(scan)
 }

@@ -11,7 +11,7 @@ use mcap::write::NoSeek;
 use mcap::{Attachment, McapError, WriteOptions};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fs::File;
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -56,10 +56,19 @@ impl LogWriter {
     ///
     /// # Errors
     ///
-    /// [`LogError::Create`] if the file cannot be created, [`LogError::Write`] if it cannot be written to.
+    /// [`LogError::Create`] if the file cannot be created, [`LogError::Busy`] if another writer has it, [`LogError::Write`] if it cannot be
+    /// written to.
     pub fn create(path: impl AsRef<Path>, header: &LogHeader<'_>) -> Result<Self, LogError> {
         let path = path.as_ref();
-        let file = File::create(path).map_err(|source| LogError::Create { path: path.to_owned(), source })?;
+        let failed = |source| LogError::Create { path: path.to_owned(), source };
+        let file = OpenOptions::new().write(true).create(true).truncate(false).open(path).map_err(failed)?;
+        // Another run that writes it would write into the middle of this one. A file system that knows no locks is no reason to refuse.
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(LogError::Busy { path: path.to_owned() });
+        }
+        if file.metadata().is_ok_and(|it| it.is_file()) {
+            file.set_len(0).map_err(failed)?;
+        }
         Self::to_sink(BufWriter::with_capacity(64 * 1024, file), path, header)
     }
 

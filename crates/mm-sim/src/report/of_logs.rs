@@ -7,7 +7,7 @@ use super::metrics::{Column, in_short, table};
 use super::payload::{Group, Run, Signals};
 use super::shell::{Page, Part};
 use super::thesis;
-use crate::log::LogFile;
+use crate::log::{self, LogFile};
 use crate::number::short;
 
 /// The page that shows some logs, as HTML.
@@ -133,6 +133,10 @@ fn origin(logs: &[LogFile], names: &[String]) -> Markup {
         "" => "-".to_owned(),
         text => text.to_owned(),
     };
+    let edits = |log: &LogFile| match log::edits(log.says("edits")).as_slice() {
+        [] => "-".to_owned(),
+        edits => edits.join(", "),
+    };
     html! {
         div.wide tabindex="0" role="region" aria-label="Versions and digests" { table {
             caption { "The digest is XXH3-128 over state and torques at every control period: two runs with the same one were the same run." }
@@ -143,7 +147,7 @@ fn origin(logs: &[LogFile], names: &[String]) -> Markup {
                     td { (says(log, "scenario")) }
                     td { (says(log, "controller")) }
                     td { (says(log, "seed")) }
-                    td { (says(log, "edits").replace('\n', ", ")) }
+                    td { (edits(log)) }
                     td { (log.outcome()) }
                     td { (says(log, "version")) }
                     td { (log.columns.len()) }

@@ -139,6 +139,39 @@ fn a_full_disk_is_named_as_the_reason() {
     assert!(ended.stderr.contains("No space left"), "and why:\n{}", ended.stderr);
 }
 
+#[test]
+fn a_log_that_another_run_writes_is_left_alone() {
+    let folder = Folder::new("busy");
+    let args = ["--scenario", "square", "--set", "simulation.duration_s=100000", "--quiet"];
+    let mut first = folder.command(&args).spawn().expect("the binary starts");
+    let log = folder.path("out/square.mcap");
+    let begin = Instant::now();
+    while std::fs::metadata(&log).map_or(0, |file| file.len()) < 50_000 {
+        assert!(begin.elapsed() < Duration::from_secs(60), "the first run writes");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let second = folder.expect(1, &["--scenario", "square", "--set", "simulation.duration_s=0.1", "--quiet"]);
+    assert!(second.stderr.contains("another run writes the log ./out/square.mcap"), "{}", second.stderr);
+    let length = std::fs::metadata(&log).expect("the log").len();
+    assert!(length >= 50_000, "nothing of it is cut off: {length}");
+    first.kill().expect("a child");
+    first.wait().expect("a child");
+    folder.expect(0, &["--scenario", "square", "--set", "simulation.duration_s=0.1", "--quiet"]);
+    assert_eq!(complete_log(&log).result["outcome"], "finished", "a killed run holds nothing");
+}
+
+#[test]
+fn what_a_controller_refuses_is_called_so_in_log_and_summary() {
+    let folder = Folder::new("refused");
+    folder.write(
+        "nan.toml",
+        "include = \"square\"\nname = \"nan\"\n[simulation]\nduration_s = 1.0\n[[fault]]\non = \"state\"\nkind = \"nan\"\nfrom_s = 0.5\n",
+    );
+    let ended = folder.expect(1, &["--scenario", "nan.toml", "--json"]);
+    assert_eq!(summary(&ended.stdout)["ended"], "refused", "{}", ended.stderr);
+    assert_eq!(complete_log(&folder.path("out/nan.mcap")).result["outcome"], "refused");
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_leaves_a_complete_log() {

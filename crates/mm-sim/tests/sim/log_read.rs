@@ -77,6 +77,18 @@ fn a_torn_log_is_read_up_to_there() {
 }
 
 #[test]
+fn a_file_named_as_the_scenario_does_not_stand_for_it() {
+    let folder = Folder::new("log-included");
+    folder.write("scenario.toml", "include = \"square\"\nname = \"base\"\n");
+    folder.write("mine.toml", "include = \"scenario.toml\"\nname = \"mine\"\nsimulation.duration_s = 0.01\n");
+    folder.expect(0, &["--scenario", "mine.toml", "--quiet", "--out", "."]);
+    let log = LogFile::read(folder.path("mine.mcap")).expect("a log");
+    assert!(log.scenario_text.contains("name = \"mine\""), "what was run: {}", log.scenario_text);
+    let other = log.files.iter().find(|(name, _)| name == "scenario.toml");
+    assert!(other.is_some_and(|(_, text)| text.contains("\"base\"")), "{:?}", log.files);
+}
+
+#[test]
 fn a_damaged_part_is_left_out_and_said() {
     let folder = Folder::new("log-damaged-read");
     // A sample every tick, for a log of several chunks.

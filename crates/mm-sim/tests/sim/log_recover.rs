@@ -126,6 +126,31 @@ fn a_damaged_chunk_is_left_out_and_said() {
 }
 
 #[test]
+fn bytes_after_the_end_are_damage() {
+    let (folder, mut bytes) = logged("log_longer");
+    let whole = messages(&bytes);
+    bytes.extend_from_slice(&[0; 1000]);
+    std::fs::write(folder.path("long.mcap"), &bytes).expect("a file of our own");
+    let info = folder.expect(3, &["log", "info", "long.mcap", "--json"]);
+    assert!(info.stdout.contains("\"state\": \"damaged\""), "{}", info.stdout);
+    assert!(info.stderr.contains("it goes on after its end; 1000 bytes"), "{}", info.stderr);
+    folder.expect(3, &["log", "recover", "long.mcap"]);
+    assert!(read(&folder.path("long.recovered.mcap")) == whole, "everything is there");
+    folder.expect(0, &["log", "info", "long.recovered.mcap"]);
+}
+
+#[test]
+fn an_edit_with_a_line_break_stays_one() {
+    let folder = Folder::new("log_edit");
+    let edit = "description=\"\"\"one\ntwo\"\"\"";
+    let short = "simulation.duration_s=0.01";
+    folder.expect(0, &["--scenario", "square", "--quiet", "--set", short, "--set", edit, "--out", "."]);
+    let info = folder.expect(0, &["log", "info", "square.mcap", "--json"]).stdout;
+    let info: Value = serde_json::from_str(&info).expect("JSON");
+    assert_eq!(info["edits"], serde_json::json!([short, edit]));
+}
+
+#[test]
 fn a_whole_log_needs_no_recovery() {
     let (folder, _) = logged("log_whole");
     let ended = folder.expect(0, &["log", "recover", "square.mcap"]);
