@@ -5,6 +5,7 @@
 //! one for viewers and other simulators.
 
 mod assemble;
+mod elements;
 mod export;
 mod import;
 mod place;

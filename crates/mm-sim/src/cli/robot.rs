@@ -36,7 +36,7 @@ pub(super) struct ImportArgs {
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
     /// Radius of the wheels. Default: that of their cylinders or spheres.
-    #[arg(long, value_name = "R")]
+    #[arg(long, value_name = "R", value_parser = length, allow_negative_numbers = true)]
     wheel_radius_m: Option<f64>,
     /// Take a joint as fixed, at zero; repeatable.
     #[arg(long, value_name = "JOINT")]
@@ -52,6 +52,12 @@ pub(super) struct ExportArgs {
     /// File for the URDF. Default: standard output.
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
+}
+
+/// A finite length above zero.
+fn length(text: &str) -> Result<f64, String> {
+    let length = text.parse().ok().filter(|length: &f64| length.is_finite() && *length > 0.0);
+    length.ok_or_else(|| "expected a length in metres above zero".to_owned())
 }
 
 /// The preset robot.

@@ -3,6 +3,7 @@
 use mm_model::{Robot, RobotParams};
 
 use super::assemble::Assembly;
+use super::elements;
 use super::place::{At, Problem, UrdfError};
 use super::tree::Tree;
 use crate::scenario::nearest::nearest;
@@ -53,6 +54,7 @@ fn read(text: &str, options: &ImportOptions) -> Result<Imported, Problem> {
         let at = At::Byte(macros.range().start);
         return Err(Problem::new(at, "a macro", "a URDF without them, as `xacro FILE` makes it"));
     }
+    elements::check(&document)?;
     let robot = urdf_rs::read_from_string(text).map_err(|error| {
         Problem::new(At::Robot, format!("not a URDF: {error}"), "links, joints and numbers as URDF has them")
     })?;

@@ -98,7 +98,7 @@ fn a_robot_of_others_is_understood() {
 
 #[test]
 fn what_does_not_fit_is_named_with_its_place() {
-    let cases: [(&str, &str, &str, &str); 14] = [
+    let cases: [(&str, &str, &str, &str); 18] = [
         ("<robot name=\"foreign\">", "<robot name=\"foreign\"", "not XML", "my.urdf:3:"),
         ("<robot name=\"foreign\">", "<robot name=\"foreign\"><joint/>", "not a URDF", "my.urdf:2:1"),
         ("origin xyz=\"0 0 0.25\"", "origin xyz=\"0.1 0 0.25\"", "off the axis of `yaw`", "my.urdf:19:3"),
@@ -143,6 +143,20 @@ fn what_does_not_fit_is_named_with_its_place() {
         ("<sphere radius=\"0.1\"/>", "<mesh filename=\"wheel.stl\"/>", "--wheel-radius-m R", "my.urdf:9:3"),
         ("<sphere radius=\"0.1\"/>", "<sphere radius=\"0.2\"/>", "the wheels have radii", "my.urdf:11:3"),
         ("xyz=\"0.15 0 0.2\"", "xyz=\"0.15 0.1 0.2\"", "0.1000 m to the left", "my.urdf:15:3"),
+        (
+            "<robot name=\"foreign\">",
+            "<robot name=\"foreign\"><link name=\"hand\"/>",
+            "a second link `hand`",
+            "my.urdf:",
+        ),
+        ("<mass value=\"1.5\"/>", "<mass value=\"six\"/>", "value = \"six\" of `<mass>`", "my.urdf:21:"),
+        (
+            "<mass value=\"1.5\"/>",
+            "<mass value=\"-1\"/>",
+            "expected a finite number, zero or above",
+            "my.urdf:21:",
+        ),
+        ("<axis xyz=\"0 0 -1\"/>", "<axis xyz=\"0 nan -1\"/>", "expected three finite numbers", "my.urdf:"),
     ];
     for (from, to, says, place) in cases {
         assert_eq!(FOREIGN.matches(from).count(), 1, "{from:?} is in the file once");
