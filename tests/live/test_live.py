@@ -213,6 +213,31 @@ def test_a_change_that_is_none_is_not_said(served: Serve) -> None:
     assert not any("changed by a viewer" in warning for warning in run.end()["warnings"])
 
 
+def test_only_what_differs_is_a_change(served: Serve) -> None:
+    """A viewer that sends back all that it was shown, with one gain turned, has turned one gain."""
+    run = served("--set", "simulation.duration_s=2.0")
+    viewer = run.viewer()
+    viewer.send(op="getParameters", parameterNames=[], id="all")
+    viewer.until(lambda viewer: GAIN in viewer.parameters)
+    viewer.subscribe()
+    turned = {**viewer.parameters, GAIN: [6.0, 6.0, 6.0]}
+    parameters = [{"name": name, "value": value} for name, value in turned.items()]
+    viewer.send(op="setParameters", parameters=parameters, id="turn")
+    viewer.until(lambda viewer: viewer.parameters[GAIN] == [6.0, 6.0, 6.0])
+    watch_to_the_end(viewer)
+    changes = [warning for warning in run.end()["warnings"] if warning.startswith("changed by a viewer")]
+    assert len(changes) == 1, changes
+    assert changes[0].startswith(f"changed by a viewer: {GAIN} = [6.0, 6.0, 6.0]")
+
+
+def test_the_wait_for_a_viewer_is_no_part_of_the_run(served: Serve) -> None:
+    """The wall time of the summary begins when the run does."""
+    run = served("--set", "simulation.duration_s=0.2", "--live-speed", "inf")
+    time.sleep(3.0)
+    run.viewer().subscribe()
+    assert run.end()["wall_s"] < 2.5
+
+
 def test_a_gain_of_a_file_can_be_turned(served: Serve, tmp_path: Path) -> None:
     """What a file of gains gives is not what a viewer is held to."""
     (tmp_path / "gains.toml").write_text("[bfsmc]\nlearning_limit = [40.0, 10.0, 9.0, 9.0, 9.0]\n")

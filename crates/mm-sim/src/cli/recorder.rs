@@ -23,6 +23,7 @@ pub(super) struct RunRecorder {
     log: Option<RunLog>,
     progress: ProgressBar,
     duration: f64,
+    /// When the run began; the wait for a viewer is no part of it.
     begin: Instant,
     error: Trace,
     live: Option<Live>,
@@ -54,6 +55,11 @@ impl RunRecorder {
     pub(super) fn serve(&mut self, live: Live) {
         self.live = Some(live);
         self.begin = Instant::now();
+    }
+
+    /// Wall time since the run began, s.
+    pub(super) fn elapsed_s(&self) -> f64 {
+        self.begin.elapsed().as_secs_f64()
     }
 
     /// What viewers changed, and when.

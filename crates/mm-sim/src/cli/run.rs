@@ -3,7 +3,6 @@
 use std::error::Error;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use super::recorder::RunRecorder;
 use super::{Common, Exit, RunArgs, complain, interrupt, print, table};
@@ -163,9 +162,8 @@ pub(super) fn execute_with(
     }
     let mut recorder =
         RunRecorder::open(loaded, experiment, log.as_deref(), show_progress).map_err(|error| fail(&error))?;
-    let begin = Instant::now();
     let ran = run(&mut recorder);
-    let wall_s = begin.elapsed().as_secs_f64();
+    let wall_s = recorder.elapsed_s();
     recorder.clear();
     let result = ran.map_err(|error| fail(&error))?;
 

@@ -135,10 +135,14 @@ impl Desk {
         let mut words = Vec::new();
         for Parameter { name, value, .. } in parameters {
             let Some(value) = value else { continue };
-            if !self.values.iter().any(|served| served.name == name) {
+            let Some(served) = self.values.iter().find(|served| served.name == name) else {
                 return Err(format!(
                     "{name} is no gain that acts here and can be changed while a run goes on"
                 ));
+            };
+            // A viewer may send all that it shows. A gain that stays as it is goes on following others.
+            if served.value.as_ref().is_some_and(|now| tunables::is_same(now, &value)) {
+                continue;
             }
             let value = tunables::to_toml(&value);
             words.push(format!("{name} = {value}"));

@@ -28,7 +28,7 @@ const SETTLING: Duration = Duration::from_millis(300);
 /// Time in which what was sent last is to reach the viewers, and for which they are waited for at the end.
 const GRACE: Duration = Duration::from_millis(200);
 const FAREWELL: Duration = Duration::from_secs(1);
-/// Messages that a viewer may be behind, of eight a sample.
+/// Messages that a viewer may be behind, of four a sample and a few more.
 const BACKLOG: usize = 16 * 1024;
 /// Wall time between two messages of the clock.
 const CLOCK_PERIOD: Duration = Duration::from_millis(20);

@@ -105,6 +105,23 @@ fn nudged(value: &ParameterValue) -> ParameterValue {
     }
 }
 
+/// Whether two values are the same number or numbers.
+#[expect(clippy::float_cmp, reason = "a number that was sent is sent back")]
+pub(super) fn is_same(one: &ParameterValue, other: &ParameterValue) -> bool {
+    #[expect(clippy::cast_precision_loss, reason = "whole numbers come from sliders")]
+    let number = |value: &ParameterValue| match value {
+        ParameterValue::Float64(number) => Some(*number),
+        ParameterValue::Integer(number) => Some(*number as f64),
+        _ => None,
+    };
+    match (one, other) {
+        (ParameterValue::Array(one), ParameterValue::Array(other)) => {
+            one.len() == other.len() && one.iter().zip(other).all(|(one, other)| is_same(one, other))
+        }
+        _ => number(one).is_some_and(|one| number(other) == Some(one)),
+    }
+}
+
 /// A value as TOML.
 pub(super) fn to_toml(value: &ParameterValue) -> String {
     match value {
