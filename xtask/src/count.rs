@@ -47,7 +47,7 @@ const OPERATIONS: [Operation; 15] = [
     operation("sin-cos-f32", "sine and cosine, f32", 6_400),
     Operation {
         budget: Some(800),
-        peers: "fuzzylite 23,884, eFLL 3,040",
+        peers: "fuzzylite 23,884",
         ..operation("fuzzy-exact", "fuzzy system of the thesis, exact", 6_400)
     },
     operation("fuzzy-q15", "the same in fixed point", 6_400),

@@ -48,9 +48,17 @@ fn positive(root: &Node, key: &str) -> Option<f64> {
     root.number(key).filter(|value| *value > 0.0)
 }
 
+/// Of the name of a run, which file names are made of: most file systems take 255 bytes, 55 are for controller and endings.
+const MAX_NAME_BYTES: usize = 200;
+
 fn name(root: &Node, problems: &mut Vec<Problem>) {
     let Some(node) = root.find("name") else { return };
     let Some(text) = node.as_str() else { return };
+    if text.len() > MAX_NAME_BYTES {
+        let found = format!("{} bytes long", text.len());
+        let expected = format!("at most {MAX_NAME_BYTES} bytes, as file systems count");
+        problems.push(Problem::new("name", found, node.place.clone()).expected(expected));
+    }
     if text.starts_with('.') || text.contains(|c: char| c == '/' || c == '\\' || c.is_control()) {
         problems.push(
             Problem::new("name", "not a file name", node.place.clone())

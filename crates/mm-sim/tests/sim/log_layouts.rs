@@ -62,3 +62,34 @@ fn plotjuggler() {
         check_field(topic, field);
     }
 }
+
+/// The texts between quotes of a part of a program.
+fn quoted(text: &str) -> Vec<&str> {
+    text.split('"').skip(1).step_by(2).collect()
+}
+
+#[test]
+fn rerun() {
+    let program = layout("show_in_rerun.py");
+    let line = |begin: &str| {
+        let found = program.lines().find(|line| line.trim_start().starts_with(begin));
+        found.unwrap_or_else(|| panic!("a line that begins with {begin}"))
+    };
+    for topic in quoted(line("topics = ")).into_iter().chain(quoted(line("COLORS = "))) {
+        assert!(topic_names().contains(topic), "{topic}");
+    }
+    let five = quoted(line("five = "));
+    let logged = quoted(line("PLOTTED = "));
+    let mut curves = 0;
+    for plot in program.lines().filter(|line| line.trim_start().starts_with("plot(")) {
+        let texts = quoted(plot);
+        let (Some(prefix), Some(suffix)) = (texts.get(1), texts.last()) else { panic!("{plot}") };
+        assert!(logged.contains(prefix), "{prefix} is logged");
+        let names = if plot.contains("five") { five.as_slice() } else { &texts[2..texts.len() - 1] };
+        for name in names {
+            check_field("/control", &format!("{prefix}{name}{suffix}"));
+            curves += 1;
+        }
+    }
+    assert_eq!(curves, 13, "three errors, five torques, five disturbances");
+}

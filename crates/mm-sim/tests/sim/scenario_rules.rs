@@ -38,6 +38,9 @@ fn rules_between_keys() {
     fails(&text, &[], "disturbance.0.amplitude_n", "my.toml:18:1", &["missing key"]);
     let text = broken("name = \"test\"", "name = \"../test\"");
     fails(&text, &[], "name", "my.toml:1:8", &["not a file name"]);
+    // A hundred characters, but three hundred bytes: no file system takes that.
+    let text = broken("name = \"test\"", &format!("name = \"{}\"", "€".repeat(100)));
+    fails(&text, &[], "name", "my.toml:1:8", &["300 bytes long", "at most 200 bytes"]);
     fails(GOOD, &["controller.kind=none"], "controller.kind", "--set:1:17", &["`velocities`"]);
     let text = "name = \"v\"\n[simulation]\nduration_s = 1\n[trajectory]\nkind = \"velocities\"\n\
                 segment = [{ until_s = 0.5 }, { until_s = 0.5 }]\n";
