@@ -105,8 +105,7 @@ fn nudged(value: &ParameterValue) -> ParameterValue {
     }
 }
 
-/// Whether two values are the same number or numbers.
-#[expect(clippy::float_cmp, reason = "a number that was sent is sent back")]
+/// Whether two values are the same number or numbers, but for the last digits, which the protocol's JSON may lose on the way.
 pub(super) fn is_same(one: &ParameterValue, other: &ParameterValue) -> bool {
     #[expect(clippy::cast_precision_loss, reason = "whole numbers come from sliders")]
     let number = |value: &ParameterValue| match value {
@@ -118,7 +117,9 @@ pub(super) fn is_same(one: &ParameterValue, other: &ParameterValue) -> bool {
         (ParameterValue::Array(one), ParameterValue::Array(other)) => {
             one.len() == other.len() && one.iter().zip(other).all(|(one, other)| is_same(one, other))
         }
-        _ => number(one).is_some_and(|one| number(other) == Some(one)),
+        _ => number(one)
+            .zip(number(other))
+            .is_some_and(|(one, other)| (one - other).abs() <= 1e-14 * one.abs().max(other.abs())),
     }
 }
 
