@@ -10,8 +10,6 @@ pub use guard::{Found, Guard, SupervisorReport};
 pub use outcome::{ASK_EVERY, Ending, NoRecorder, Recorder, Retuned, RunResult, Sample};
 pub(crate) use runaway::runaway;
 
-use std::borrow::Cow;
-
 use mm_control::{ControlStack, Input, Output, Reference, Signals, required_gain};
 use mm_model::{Force, Mechanism, Torque};
 use nalgebra::Vector3;
@@ -118,7 +116,8 @@ struct AtPlant {
 /// A run under way.
 struct Run<'a> {
     simulation: &'a Simulation,
-    stack: Cow<'a, ControlStack<f64, 3>>,
+    /// On the heap, where nothing of the run lies that a period writes: it is not read anew after every store.
+    stack: Box<ControlStack<f64, 3>>,
     control: mm_control::ControlState<f64, 3>,
     hardware: Option<Box<Running<'a>>>,
     guard: Option<Box<guard::Running<'a>>>,
@@ -137,7 +136,7 @@ impl<'a> Run<'a> {
         let authority = simulation.stack.law().authority();
         Self {
             simulation,
-            stack: Cow::Borrowed(&simulation.stack),
+            stack: Box::new(simulation.stack),
             control: simulation.stack.initial_state(),
             hardware: simulation.hardware.as_ref().map(|hardware| {
                 Box::new(Running::new(hardware, simulation.plant.robot(), &simulation.initial))
@@ -241,7 +240,7 @@ impl<'a> Run<'a> {
         let authority = stack.law().authority();
         self.reaches = authority.is_some();
         self.monitors.retune(authority);
-        self.stack = Cow::Owned(stack);
+        *self.stack = stack;
     }
 
     #[inline]
