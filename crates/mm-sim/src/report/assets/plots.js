@@ -35,7 +35,9 @@ const tick = (value) => (value === 0 ? '0' : Math.abs(value) < 1e-3 || Math.abs(
 
 /** A value on an axis with as many digits as its step has. */
 function stepped(value, step) {
-  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  // A step of 2.5 has one digit more than its power of ten.
+  let digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  if (Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) > 1e-6) digits += 1;
   return digits > 5 || Math.abs(value) >= 1e5 ? tick(value) : value.toFixed(digits);
 }
 
