@@ -285,9 +285,27 @@ where
     });
     outcome.unwrap_or_else(|error| {
         let _ = error.print();
+        if let Some(scenario) = meant_as_scenario(&error) {
+            complain(&format_args!(
+                "help: a scenario is given with `{}`",
+                crate::shell::command(["mmsim", "--scenario", &scenario])
+            ));
+        }
         // `--help` and `--version` come this way too, and are no mistake.
         if error.use_stderr() { Exit::Usage } else { Exit::Done }
     })
+}
+
+/// The argument that no command expects, if it is a scenario: bundled, or a file that there is.
+fn meant_as_scenario(error: &clap::Error) -> Option<String> {
+    use clap::error::{ContextKind, ContextValue};
+    let value = [ContextKind::InvalidSubcommand, ContextKind::InvalidArg]
+        .into_iter()
+        .find_map(|kind| error.get(kind))?;
+    let ContextValue::String(word) = value else { return None };
+    let name = word.strip_suffix(".toml").unwrap_or(word);
+    let is_bundled = crate::scenario::bundled().iter().any(|(bundled, _)| *bundled == name);
+    (is_bundled || word.ends_with(".toml") && std::path::Path::new(word).is_file()).then(|| word.clone())
 }
 
 /// Writes a result to standard output, as a line; a reader that has gone away is no failure, a full disk is.

@@ -13,7 +13,8 @@ pub(super) const MMSIM: &str = "Examples:
   mmsim scenario new -o mine.toml
   mmsim robot import robot.urdf -o robot.toml
 
-Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed";
+Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the scenario's [expect] was missed;
+with --set, --seed or --controller it is another experiment, and a bound that it misses is a warning";
 
 pub(super) const RUN: &str = "Examples:
   mmsim run --scenario square.toml                              summary, and the log out/square.mcap

@@ -121,6 +121,12 @@ fn params(robot: &str) -> Result<RobotParams<f64, 3>, Exit> {
     if robot == THESIS && !Path::new(robot).exists() {
         return Ok(RobotParams::thesis());
     }
+    if !Path::new(robot).is_file() {
+        complain(&format_args!(
+            "error: there is no robot file {robot}; expected a file, or `{THESIS}` for the preset"
+        ));
+        return Err(Exit::Usage);
+    }
     // A scenario around it, as there is no robot without one.
     let sets = [format!("robot.file={}", toml::Value::from(robot))];
     let loaded = scenario::from_text(

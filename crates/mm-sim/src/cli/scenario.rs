@@ -9,6 +9,7 @@ use clap::Args;
 use super::run::prepare;
 use super::{Exit, ScenarioCommand, complain, print};
 use crate::scenario;
+use crate::shell::command;
 
 /// Runs one of the sub-commands.
 pub(super) fn scenario(command: &ScenarioCommand) -> Exit {
@@ -58,7 +59,11 @@ fn new(args: &NewArgs) -> Exit {
         return print(text.trim_end());
     }
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
-    write_new(&path, &text, &format!("runs with `mmsim --scenario {}`", path.display()))
+    write_new(
+        &path,
+        &text,
+        &format!("runs with `{}`", command(["mmsim", "--scenario", &path.display().to_string()])),
+    )
 }
 
 /// Writes a file that must not be there yet, and says what it is good for.

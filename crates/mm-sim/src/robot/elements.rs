@@ -41,6 +41,16 @@ pub(super) fn check(document: &Document<'_>) -> Result<(), Problem> {
     let mut seen = BTreeSet::new();
     for part in document.root_element().children().filter(|node| is_one_of(node, &["link", "joint"])) {
         let tag = part.tag_name().name();
+        let wanted: &[&str] = if tag == "joint" { &["name", "type"] } else { &["name"] };
+        if let Some(missing) = wanted.iter().find(|name| part.attribute(**name).is_none()) {
+            let at = At::Byte(part.range().start);
+            let name = part.attribute("name").map_or_else(String::new, |name| format!(" `{name}`"));
+            return Err(Problem::new(
+                at,
+                format!("{tag}{name} without a {missing}"),
+                format!("{missing}=\"...\""),
+            ));
+        }
         let name = part.attribute("name").unwrap_or_default();
         if !seen.insert((tag, name)) {
             let at = At::Byte(part.range().start);

@@ -157,3 +157,27 @@ fn an_earlier_log_outlives_a_bad_command() {
     folder.expect(2, &["--scenario", "mine.toml"]);
     assert_eq!(std::fs::read(folder.path("out/mine.mcap")).expect("the log"), before, "the log is untouched");
 }
+
+#[test]
+fn a_scenario_as_an_argument_is_pointed_at_its_option() {
+    let folder = Folder::new("argument");
+    folder.write("my own.toml", "include = \"square\"\n");
+    for args in
+        [&["square"][..], &["run", "square.toml"], &["compare", "square", "--controllers", "bsmc,pid"]]
+    {
+        let ended = folder.expect(2, args);
+        let name = args.iter().find(|arg| arg.starts_with("square")).expect("a scenario");
+        let help = format!("help: a scenario is given with `mmsim --scenario {name}`");
+        assert!(ended.stderr.contains(&help), "{args:?}:\n{}", ended.stderr);
+    }
+    let ended = folder.expect(2, &["my own.toml"]);
+    assert!(ended.stderr.contains("--scenario 'my own.toml'"), "{}", ended.stderr);
+    let ended = folder.expect(2, &["nonsense"]);
+    assert!(!ended.stderr.contains("--scenario"), "no scenario of that name:\n{}", ended.stderr);
+    let ended = folder.expect(2, &["robot", "export", "--robot", "thesi"]);
+    assert!(
+        ended.stderr.contains("there is no robot file thesi; expected a file, or `thesis`"),
+        "{}",
+        ended.stderr
+    );
+}

@@ -100,7 +100,12 @@ fn a_robot_of_others_is_understood() {
 fn what_does_not_fit_is_named_with_its_place() {
     let cases: [(&str, &str, &str, &str); 18] = [
         ("<robot name=\"foreign\">", "<robot name=\"foreign\"", "not XML", "my.urdf:3:"),
-        ("<robot name=\"foreign\">", "<robot name=\"foreign\"><joint/>", "not a URDF", "my.urdf:2:1"),
+        (
+            "<robot name=\"foreign\">",
+            "<robot name=\"foreign\"><joint/>",
+            "joint without a name",
+            "my.urdf:2:23",
+        ),
         ("origin xyz=\"0 0 0.25\"", "origin xyz=\"0.1 0 0.25\"", "off the axis of `yaw`", "my.urdf:19:3"),
         ("origin xyz=\"0 0 0.4\"", "origin xyz=\"0 0.05 0.4\"", "0.0500 m out of its plane", "my.urdf:23:3"),
         (
