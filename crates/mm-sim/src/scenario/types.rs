@@ -77,8 +77,8 @@ pub struct ScenarioFile {
     /// What is corrupted between the sensors and the controller, or in its clock; several act in the order of the file.
     #[serde(default)]
     pub fault: Vec<Fault>,
-    /// Bounds on the metrics of the run, checked at its end; the keys are those of `metrics` in the summary. A run with edits (`--set`,
-    /// `--seed`, `--controller`) is another experiment: what it misses is a warning, no failure.
+    /// Bounds on the metrics of the run, by the keys of `metrics` in the summary. To miss one fails the run as the file stands; of a run with
+    /// edits it is a warning.
     #[serde(default)]
     pub expect: Expect,
     /// What `mmsim sweep` varies: each sample draws every quantity anew, uniformly in its range, and leaves alone what has range

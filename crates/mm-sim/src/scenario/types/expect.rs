@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Bounds on the metrics of the run, checked at its end; the keys are those of `metrics` in the summary. A run with edits (`--set`,
-/// `--seed`, `--controller`) is another experiment: what it misses is a warning, no failure.
+/// Bounds on the metrics of the run, by the keys of `metrics` in the summary. To miss one fails the run as the file stands; of a run with
+/// edits it is a warning.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
