@@ -74,7 +74,7 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, clap::Error> {
         let comparison = Comparison { runs: &runs, improvement_percent };
         exit = exit.max(print(&serde_json::to_string(&comparison).unwrap_or_default()));
     } else if !common.quiet {
-        exit = exit.max(print(&table::comparison(&runs, improvement_percent)));
+        exit = exit.max(print(&table::comparison(&runs, improvement_percent, !common.sets(None).is_empty())));
     }
     for (run, ended) in runs.iter().zip(endings) {
         complain_of(run, ended, &format!("{}: ", run.controller));

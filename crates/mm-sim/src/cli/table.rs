@@ -75,8 +75,13 @@ pub(super) fn single(s: &Summary, error: Option<&str>) -> String {
 }
 
 /// The table of a comparison.
-pub(super) fn comparison(runs: &[Summary], improvement: Option<PerAxisSum>) -> String {
+///
+/// The thesis's numbers stand beside whole runs of its experiment alone: `edited` says that a scenario is another one.
+pub(super) fn comparison(runs: &[Summary], improvement: Option<PerAxisSum>, edited: bool) -> String {
     let Some(first) = runs.first() else { return "no run finished".to_owned() };
+    let finished = ended(&Ending::Finished);
+    let is_of_thesis =
+        first.scenario == "square-compare" && !edited && runs.iter().all(|run| run.ended == finished);
     let mut out = format!("{}: {} s\n\n", first.scenario, short(first.duration_s));
     let _ = writeln!(
         out,
@@ -104,13 +109,13 @@ pub(super) fn comparison(runs: &[Summary], improvement: Option<PerAxisSum>) -> S
         for cell in cells.map(short) {
             let _ = write!(out, " {cell:>11}");
         }
-        if run.ended != ended(&Ending::Finished) {
+        if run.ended != finished {
             // Its integrals cover less time than those of the others.
             let _ = write!(out, "  ({} at {:.3} s)", run.ended, run.simulated_s);
         }
         out.push('\n');
     }
-    if first.scenario == "square-compare" {
+    if is_of_thesis {
         for (name, values) in TABLE_5_2 {
             let [x, y, z, sum] = values.map(short);
             let _ = writeln!(out, "{name:20} {x:>11} {y:>11} {z:>11} {sum:>11}  (Table 5.2, other gains)");
@@ -120,7 +125,7 @@ pub(super) fn comparison(runs: &[Summary], improvement: Option<PerAxisSum>) -> S
         let [x, y, z, sum] = [by.x, by.y, by.z, by.sum]
             .map(|p| if p.is_finite() { format!("{p:.2} %") } else { "-".to_owned() });
         let _ = writeln!(out, "{:20} {x:>11} {y:>11} {z:>11} {sum:>11}", "bfsmc below bsmc by");
-        if first.scenario == "square-compare" {
+        if is_of_thesis {
             let _ = writeln!(
                 out,
                 "{:20} {:>11} {:>11} {:>11} {:>11}",

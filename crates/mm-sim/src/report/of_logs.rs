@@ -7,7 +7,7 @@ use super::metrics::{Column, in_short, table};
 use super::payload::{Group, Run, Signals};
 use super::shell::{Page, Part};
 use super::thesis;
-use crate::log::{self, LogFile};
+use crate::log::{self, LogFile, Outcome};
 use crate::number::short;
 
 /// The page that shows some logs, as HTML.
@@ -26,7 +26,7 @@ pub fn of_logs(logs: &[LogFile]) -> String {
         .map(|(log, name)| (name.as_str(), log.summary.as_ref().and_then(|summary| summary.get("metrics"))))
         .collect();
     let beside = match scenarios.as_slice() {
-        [only] => thesis::beside(only, &columns),
+        [only] if logs.iter().all(is_as_bundled) => thesis::beside(only, &columns),
         _ => None,
     };
     let mut before = vec![Part { id: "summary", title: "Summary", body: summary(logs, &names, &columns) }];
@@ -39,6 +39,13 @@ pub fn of_logs(logs: &[LogFile]) -> String {
     let runs =
         if logs.len() == 1 { names.concat() } else { format!("{} runs: {}", logs.len(), names.join(", ")) };
     Page { title: &title, subtitle: runs, groups: &groups, notices, before, after }.to_html()
+}
+
+/// Whether a log is of a whole run of its scenario, changed in nothing but the law: what may stand beside the thesis's numbers.
+fn is_as_bundled(log: &LogFile) -> bool {
+    let edits = log::edits(log.says("edits"));
+    log.outcome() == Outcome::Finished.as_str()
+        && edits.iter().all(|edit| edit.starts_with("controller.kind="))
 }
 
 /// The scenarios of some logs, each once.

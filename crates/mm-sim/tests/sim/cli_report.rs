@@ -10,11 +10,16 @@ use crate::common::command::Folder;
 
 const SHORT: [&str; 2] = ["--set", "simulation.duration_s=0.3"];
 
-/// Logs of two laws, in the folder's `out`.
+/// Logs of two laws over a short time, in the folder's `out`.
 fn two(folder: &Folder) -> [&'static str; 2] {
-    let args = ["compare", "--scenario", "square-compare", "--controllers", "bsmc,bfsmc", "--quiet"];
-    folder.expect(0, &[&args, &SHORT[..]].concat());
-    ["out/square-compare.bsmc.mcap", "out/square-compare.bfsmc.mcap"]
+    compared(folder, &SHORT).1
+}
+
+/// The table of two laws with more options, and their logs in the folder's `out`.
+fn compared(folder: &Folder, more: &[&str]) -> (String, [&'static str; 2]) {
+    let args = ["compare", "--scenario", "square-compare", "--controllers", "bsmc,bfsmc"];
+    let table = folder.expect(0, &[&args, more].concat()).stdout;
+    (table, ["out/square-compare.bsmc.mcap", "out/square-compare.bfsmc.mcap"])
 }
 
 fn text(folder: &Folder, name: &str) -> String {
@@ -24,7 +29,8 @@ fn text(folder: &Folder, name: &str) -> String {
 #[test]
 fn the_report_is_beside_the_first_log_or_where_it_is_told() {
     let folder = Folder::new("report-place");
-    let [one, other] = two(&folder);
+    // Whole runs: the thesis's numbers stand beside no others.
+    let (_, [one, other]) = compared(&folder, &[]);
     let ended = folder.expect(0, &["report", one, other]);
     assert_eq!(ended.stdout, "out/report.html\n", "where it is");
     let page = text(&folder, "out/report.html");
@@ -133,4 +139,18 @@ fn figures_are_svg_or_png_by_their_extension() {
     assert!(ended.stderr.contains("expected a name that ends in .svg or .png"), "{}", ended.stderr);
     folder.expect(2, &["plot", one, "-o", "x.svg", "--figure", "nothing"]);
     folder.expect(2, &["plot", one, "-o", "x.png", "--scale", "0"]);
+}
+
+#[test]
+fn the_thesis_stands_beside_whole_runs_of_its_experiment_alone() {
+    let folder = Folder::new("beside");
+    for (more, is_there) in [(&["--set", "simulation.duration_s=1"][..], false), (&[], true)] {
+        let (table, [one, other]) = compared(&folder, more);
+        folder.expect(0, &["report", one, other]);
+        let page = text(&folder, "out/report.html");
+        for part in ["10.98", "47.31 %", "31.16 %"] {
+            assert_eq!(table.contains(part), is_there, "{part} with {more:?} in\n{table}");
+            assert_eq!(page.contains(part), is_there, "{part} in the report with {more:?}");
+        }
+    }
 }
