@@ -1,55 +1,20 @@
 //! The control stack: one call from measurement and reference to torques, the same for every user.
 
 mod checks;
+mod state;
 mod supervised;
 mod take_over;
 
 use mm_model::{Configuration, Mechanism, Real, Robot, SinesOf, Velocity, check};
 
 use self::checks::{check_rates, supervise};
-use crate::estimator::{Estimator, Measurement, Memory, Stage};
+pub use self::state::{ControlState, StackParams};
+use crate::estimator::{Measurement, Memory, Stage};
 use crate::fuzzy::Bundled;
 use crate::laws::{Drive, FuzzyTerm, Gains, InnerLaw, Law, LawMemory, Tracking};
 use crate::observer::{MomentumObserver, ObserverState};
-use crate::outer::{OuterLoop, OuterOutput, OuterParams};
+use crate::outer::{OuterLoop, OuterOutput};
 use crate::{ControlError, Input, Output, Reference, SetupError, Signals, Status};
-
-/// What the stack remembers between updates.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
-pub struct ControlState<T, const N: usize> {
-    /// integral(nu - nu_c).
-    integral: Velocity<T, N>,
-    observer: ObserverState<T, N>,
-    memory: LawMemory<T, N>,
-    /// Whether the observer holds for one update: the last torque was limited, or another stack took over.
-    held: bool,
-    /// Updates done, counted up to where the outer loop has released the base.
-    updates: u32,
-    estimator: Memory<T, N>,
-}
-
-/// Parameters of the stack, not yet checked.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
-pub struct StackParams<T, const N: usize> {
-    /// Time between two updates, s.
-    pub period: T,
-    /// Outer loop and sliding surface.
-    pub outer: OuterParams<T, N>,
-    /// Inner gains.
-    pub gains: Gains<T, N>,
-    /// How the velocity is found from measured positions; for [`ControlStack::update_measured`].
-    pub estimator: Estimator<T>,
-}
 
 /// Estimator, supervisor, outer loop, inner loop and limits, in this order.
 ///
@@ -279,7 +244,7 @@ where
     /// [`update`](Self::update): two or three sine/cosine pairs and about 100 multiplications and additions, 300 for the observer.
     ///
     /// # Errors
-    /// [`ControlError::NoEstimator`] for a stack with [`Estimator::None`]; else as [`update`](Self::update). The state is then as
+    /// [`ControlError::NoEstimator`] for a stack with [`Estimator::None`](crate::Estimator::None); else as [`update`](Self::update). The state is then as
     /// before the call.
     #[inline]
     pub fn update_measured(
